@@ -1,0 +1,2 @@
+//! The `fastbike` binary.
+fn main() {}

@@ -1,0 +1,19 @@
+//! Spatial algebra: vectors, rotations, poses, twists, wrenches, inertias. Knows no tree.
+//!
+//! Spatial vectors are written about a point and in axes that the name of the variable tells (monogram notation);
+//! twists and spatial accelerations are (angular, linear), wrenches (moment, force).
+//! Source: R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, chapter 2.
+
+mod inertia;
+mod pose;
+mod rotation;
+mod twist;
+mod vector;
+mod wrench;
+
+pub use inertia::{ArticulatedInertia, Inertia, MassProperties};
+pub use pose::Pose;
+pub use rotation::Rotation;
+pub use twist::Twist;
+pub use vector::Vec3;
+pub use wrench::Wrench;

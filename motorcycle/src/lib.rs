@@ -1,0 +1,1 @@
+//! Tires, suspensions, drivetrain, brakes, aerodynamics, riders: force elements for mbody.

@@ -1,0 +1,1 @@
+//! Engine-agnostic analyses: trim, modes, frequency response, transients.

@@ -1,0 +1,1 @@
+//! Nonlinear and time solvers written in Rust.

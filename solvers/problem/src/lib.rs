@@ -1,0 +1,20 @@
+//! The vocabulary between engines, solvers and analyses.
+//!
+//! Engines *implement* [`Dae`] and its optional capabilities, solver packages *implement*
+//! [`AlgebraicMethod`], analyses *consume* both. This crate holds no numerics and depends on nobody.
+//!
+//! Everything that enters or leaves a plant is a named [`Signal`] with unit and one sentence.
+
+mod algebraic;
+mod error;
+mod matrix;
+mod outcome;
+mod plant;
+mod signal;
+
+pub use algebraic::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound};
+pub use error::EvalError;
+pub use matrix::Matrix;
+pub use outcome::Ending;
+pub use plant::{At, Dae, Differentiable, Equation, EquationKind, Input, Limit, Limits, Outputs, Plant, Seeds, Side, Unknown, UnknownKind};
+pub use signal::Signal;

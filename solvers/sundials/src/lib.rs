@@ -1,0 +1,1 @@
+//! KINSOL and IDA behind the vocabulary of problem.
