@@ -8,5 +8,9 @@
 #![forbid(unsafe_code)]
 #![allow(non_snake_case)]
 
+pub mod algorithm;
+pub mod joint;
+pub mod model;
 pub mod scalar;
 pub mod spatial;
+pub mod stage;
