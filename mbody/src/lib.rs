@@ -8,5 +8,6 @@
 #![forbid(unsafe_code)]
 #![allow(non_snake_case)]
 
+pub mod contact;
 pub mod scalar;
 pub mod spatial;
