@@ -9,6 +9,7 @@
 #![allow(non_snake_case)]
 
 pub mod algorithm;
+pub mod contact;
 pub mod joint;
 pub mod model;
 pub mod scalar;
