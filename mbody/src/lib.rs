@@ -10,6 +10,8 @@
 
 pub mod algorithm;
 pub mod contact;
+pub mod dynamics;
+pub mod force;
 pub mod joint;
 pub mod model;
 pub mod scalar;

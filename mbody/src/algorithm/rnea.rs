@@ -5,8 +5,8 @@
 
 use crate::model::Model;
 use crate::scalar::SystemScalar;
-use crate::stage::{Acceleration, Position, Velocity};
 use crate::spatial::Wrench;
+use crate::stage::{Acceleration, Position, Velocity};
 
 /// Writes `τ` (tree, N or N m) that the joints must supply for the motion in the three stages under the applied wrenches.
 ///

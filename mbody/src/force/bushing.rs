@@ -54,8 +54,7 @@ impl Bushing {
         let w = X_WF.R.inverse_times(at.w_WB(self.to.0) - at.w_WB(self.from.0));
         let k = self.rotational_stiffness;
         let g = Vec3 { x: 0.5 * (k.y + k.z - k.x), y: 0.5 * (k.z + k.x - k.y), z: 0.5 * (k.x + k.y - k.z) };
-        let elastic_moment =
-            Vec3::new(R[2].y * g.z - R[1].z * g.y, R[0].z * g.x - R[2].x * g.z, R[1].x * g.y - R[0].y * g.x);
+        let elastic_moment = Vec3::new(R[2].y * g.z - R[1].z * g.y, R[0].z * g.x - R[2].x * g.z, R[1].x * g.y - R[0].y * g.x);
         let (viscous_force, viscous_moment) = (each(self.damping, v), each(self.rotational_damping, w));
         let rotational = (-R[0].x + 1.0) * g.x + (-R[1].y + 1.0) * g.y + (-R[2].z + 1.0) * g.z;
         Deflection {

@@ -28,14 +28,8 @@ impl JointLaw for Free {
         const fn w(name: &'static str) -> Coordinate {
             Coordinate { name, unit: "rad/s", about: "angular velocity in axes of the body", nominal: 1.0, cyclic: false }
         }
-        const V: [Coordinate; 6] = [
-            v("velocity_x"),
-            v("velocity_y"),
-            v("velocity_z"),
-            w("angular_velocity_x"),
-            w("angular_velocity_y"),
-            w("angular_velocity_z"),
-        ];
+        const V: [Coordinate; 6] =
+            [v("velocity_x"), v("velocity_y"), v("velocity_z"), w("angular_velocity_x"), w("angular_velocity_y"), w("angular_velocity_z")];
         &V
     }
     fn reference(&self) -> Vec<f64> {

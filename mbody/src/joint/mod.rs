@@ -43,10 +43,26 @@ pub const KINDS: &[JointKind] = &[
     JointKind { name: "fixed", about: "no motion", make: |_, _| Joint::new(Fixed) },
     JointKind { name: "revolute", about: "rotation about an axis", make: |a, _| Joint::new(Revolute::new(a)) },
     JointKind { name: "prismatic", about: "translation along an axis", make: |a, _| Joint::new(Prismatic::new(a)) },
-    JointKind { name: "screw", about: "rotation about an axis with a proportional advance along it", make: |a, p| Joint::new(Screw::new(a, p)) },
-    JointKind { name: "universal", about: "rotation about x of the inboard frame, then about y of the outboard frame", make: |_, _| Joint::new(Universal) },
+    JointKind {
+        name: "screw",
+        about: "rotation about an axis with a proportional advance along it",
+        make: |a, p| Joint::new(Screw::new(a, p)),
+    },
+    JointKind {
+        name: "universal",
+        about: "rotation about x of the inboard frame, then about y of the outboard frame",
+        make: |_, _| Joint::new(Universal),
+    },
     JointKind { name: "spherical", about: "free rotation, quaternion", make: |_, _| Joint::new(Spherical) },
-    JointKind { name: "planar", about: "translation in the plane across an axis and rotation about it, velocities in the moving frame", make: |a, _| Joint::new(Planar::new(a)) },
+    JointKind {
+        name: "planar",
+        about: "translation in the plane across an axis and rotation about it, velocities in the moving frame",
+        make: |a, _| Joint::new(Planar::new(a)),
+    },
     JointKind { name: "free", about: "free motion, quaternion, velocities in body axes", make: |_, _| Joint::new(Free) },
-    JointKind { name: "vehicle_base", about: "planar motion with velocities in the yawed frame, then heave, roll and pitch", make: |_, _| Joint::new(VehicleBase) },
+    JointKind {
+        name: "vehicle_base",
+        about: "planar motion with velocities in the yawed frame, then heave, roll and pitch",
+        make: |_, _| Joint::new(VehicleBase),
+    },
 ];

@@ -40,8 +40,20 @@ impl JointLaw for Planar {
     }
     fn velocities(&self) -> &'static [Coordinate] {
         &[
-            Coordinate { name: "velocity_x", unit: "m/s", about: "velocity along the first direction of the moving frame", nominal: 1.0, cyclic: false },
-            Coordinate { name: "velocity_y", unit: "m/s", about: "velocity along the second direction of the moving frame", nominal: 1.0, cyclic: false },
+            Coordinate {
+                name: "velocity_x",
+                unit: "m/s",
+                about: "velocity along the first direction of the moving frame",
+                nominal: 1.0,
+                cyclic: false,
+            },
+            Coordinate {
+                name: "velocity_y",
+                unit: "m/s",
+                about: "velocity along the second direction of the moving frame",
+                nominal: 1.0,
+                cyclic: false,
+            },
             Coordinate { name: "rate", unit: "rad/s", about: "angular speed about the normal", nominal: 1.0, cyclic: false },
         ]
     }

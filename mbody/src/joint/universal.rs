@@ -19,8 +19,20 @@ impl JointLaw for Universal {
     }
     fn velocities(&self) -> &'static [Coordinate] {
         &[
-            Coordinate { name: "first_rate", unit: "rad/s", about: "angular speed about x of the inboard frame", nominal: 1.0, cyclic: false },
-            Coordinate { name: "second_rate", unit: "rad/s", about: "angular speed about y of the outboard frame", nominal: 1.0, cyclic: false },
+            Coordinate {
+                name: "first_rate",
+                unit: "rad/s",
+                about: "angular speed about x of the inboard frame",
+                nominal: 1.0,
+                cyclic: false,
+            },
+            Coordinate {
+                name: "second_rate",
+                unit: "rad/s",
+                about: "angular speed about y of the outboard frame",
+                nominal: 1.0,
+                cyclic: false,
+            },
         ]
     }
     fn pose<S: Real>(&self, q: &[S]) -> Pose<S> {

@@ -89,6 +89,8 @@ pub struct CubicSpline {
     y: Vec<f64>,
     /// Second derivatives at the knots.
     m: Vec<f64>,
+    /// Integrals from the first knot to each knot.
+    sums: Vec<f64>,
 }
 
 impl CubicSpline {
@@ -99,7 +101,13 @@ impl CubicSpline {
     pub fn new(x: &[f64], y: &[f64], ends: Ends) -> Result<Self, CurveError> {
         let needed = if ends == Ends::NotAKnot { 4 } else { 2 };
         check_points(x, y, needed)?;
-        Ok(Self { x: x.to_vec(), y: y.to_vec(), m: second_derivatives(x, y, ends) })
+        let m = second_derivatives(x, y, ends);
+        let mut sums = vec![0.0; x.len()];
+        for i in 1..x.len() {
+            let h = x[i] - x[i - 1];
+            sums[i] = sums[i - 1] + 0.5 * h * (y[i - 1] + y[i]) - h.powi(3) / 24.0 * (m[i - 1] + m[i]);
+        }
+        Ok(Self { x: x.to_vec(), y: y.to_vec(), m, sums })
     }
 
     /// First and last abscissa.
@@ -116,6 +124,25 @@ impl CubicSpline {
     #[inline]
     pub fn value<S: Real>(&self, x: S) -> S {
         self.at(x).value
+    }
+
+    /// Integral from the first knot to x, the straight continuations included.
+    pub fn integral<S: Real>(&self, x: S) -> S {
+        let i = interval(&self.x, x.value());
+        let h = self.x[i + 1] - self.x[i];
+        let u = (x - self.x[i]) / h;
+        for (beyond, end) in [(u.value() < 0.0, i), (u.value() > 1.0, i + 1)] {
+            if beyond {
+                let knot = self.at(self.x[end]);
+                let d = x - self.x[end];
+                return d * d * (0.5 * knot.slope) + d * knot.value + self.sums[end];
+            }
+        }
+        let w = -u + 1.0;
+        let (uu, ww) = (u * u, w * w);
+        let lines = (-ww + 1.0) * (0.5 * self.y[i]) + uu * (0.5 * self.y[i + 1]);
+        let bend = (ww * (-ww * 0.25 + 0.5) - 0.25) * self.m[i] + uu * (uu * 0.25 - 0.5) * self.m[i + 1];
+        (lines + bend * (h * h / 6.0)) * h + self.sums[i]
     }
 
     /// Value, slope and second derivative at x.
@@ -324,6 +351,21 @@ fn end_slope(h: f64, h_next: f64, chord: f64, chord_next: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::scalar::Jet;
+
+    #[test]
+    fn the_integral_of_a_spline_has_the_spline_as_its_slope() {
+        let x = [-1.0, -0.2, 0.5, 1.5, 3.0];
+        let y = [0.3, -1.0, 2.0, 2.5, -4.0];
+        let s = CubicSpline::new(&x, &y, Ends::Natural).unwrap();
+        assert_eq!(s.integral(x[0]), 0.0);
+        for at in [-2.0, -1.0, -0.5, 0.0, 0.499, 0.501, 2.0, 2.999, 3.0, 4.0] {
+            let j = s.integral(Jet::new(at, 1.0, 0.0));
+            assert!((j.d - s.value(at)).abs() < 1e-13, "at {at}");
+        }
+        for knot in x {
+            assert!((s.integral(knot - 1e-9) - s.integral(knot + 1e-9)).abs() < 1e-7);
+        }
+    }
 
     fn cubic(x: f64) -> f64 {
         ((0.3 * x - 1.1) * x + 0.7) * x - 2.0
