@@ -8,5 +8,6 @@
 #![forbid(unsafe_code)]
 #![allow(non_snake_case)]
 
+pub mod description;
 pub mod scalar;
 pub mod spatial;
