@@ -10,6 +10,7 @@
 
 pub mod algorithm;
 pub mod contact;
+pub mod description;
 pub mod dynamics;
 pub mod force;
 pub mod joint;
