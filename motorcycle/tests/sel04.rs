@@ -4,11 +4,10 @@ use motorcycle::tire::magic_formula_motorcycle::{MagicFormulaMotorcycle, MagicFo
 use motorcycle::tire::{Slip, TireLaw};
 use serde::Deserialize;
 
-/// The tables are printed with ten significant digits, that is to 1e-6 N for forces of some thousand N; the two programs behind
-/// them agree to 5e-7 N.
-const FORCE: f64 = 1e-6;
-/// Moments of up to a hundred N m are printed to 1e-8 N m.
-const MOMENT: f64 = 1e-6;
+/// The tables are printed with ten significant digits: forces of some thousand N to half of 1e-6 N.
+const FORCE: f64 = 0.5e-6 + 1e-9;
+/// Moments below a hundred N m are printed to half of 1e-8 N m.
+const MOMENT: f64 = 0.5e-8 + 1e-10;
 /// Stiffnesses of some ten thousand N are printed to 1e-5 N.
 const STIFFNESS: f64 = 0.5e-5 + 1e-9;
 
