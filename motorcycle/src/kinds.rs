@@ -2,7 +2,7 @@
 
 use crate::aero::AerodynamicsDescription;
 use crate::brake::BrakeDescription;
-use crate::drivetrain::ChainDescription;
+use crate::drivetrain::{ChainDescription, EngineDescription, EngineRotorDescription, ShaftDriveDescription};
 use crate::steering::{SingleTrackDescription, SteeringDamperDescription, SteeringStopDescription};
 use crate::suspension::{SwingarmShockDescription, TelescopicForkDescription};
 use mbody::assembly::ElementKind;
@@ -15,6 +15,9 @@ pub const KINDS: &[ElementKind] = &[
     ElementKind::of::<TelescopicForkDescription>(),
     ElementKind::of::<SwingarmShockDescription>(),
     ElementKind::of::<ChainDescription>(),
+    ElementKind::of::<ShaftDriveDescription>(),
+    ElementKind::of::<EngineDescription>(),
+    ElementKind::of::<EngineRotorDescription>(),
     ElementKind::of::<BrakeDescription>(),
     ElementKind::of::<AerodynamicsDescription>(),
     ElementKind::of::<SteeringDamperDescription>(),
@@ -38,6 +41,9 @@ mod tests {
         reads::<TelescopicForkDescription>();
         reads::<SwingarmShockDescription>();
         reads::<ChainDescription>();
+        reads::<ShaftDriveDescription>();
+        reads::<EngineDescription>();
+        reads::<EngineRotorDescription>();
         reads::<BrakeDescription>();
         reads::<AerodynamicsDescription>();
         reads::<SteeringDamperDescription>();

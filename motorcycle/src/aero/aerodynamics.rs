@@ -83,7 +83,18 @@ impl Aerodynamics {
         let drag = -relative.scaled(speed * (0.5 * self.density * self.drag_area));
         let side = -y.scaled(speed * relative.dot(y) * (0.5 * self.density * self.side_area));
         let nose_up = pressure * self.pitch_volume;
-        Flow { point: X.p, velocity, relative, speed, drag, lift: pressure * self.lift_area, side, up: z, moment: -y.scaled(nose_up), nose_up }
+        Flow {
+            point: X.p,
+            velocity,
+            relative,
+            speed,
+            drag,
+            lift: pressure * self.lift_area,
+            side,
+            up: z,
+            moment: -y.scaled(nose_up),
+            nose_up,
+        }
     }
 }
 
@@ -206,7 +217,8 @@ mod tests {
 
     #[test]
     fn wind_is_across_the_heading_whatever_yaw_roll_and_pitch() {
-        let mut bench = Bench::new(vec![Force::new("aero", Aerodynamics { lift_area: 0.0, side_area: 0.0, pitch_volume: 0.0, ..gsxr1000() })]);
+        let mut bench =
+            Bench::new(vec![Force::new("aero", Aerodynamics { lift_area: 0.0, side_area: 0.0, pitch_volume: 0.0, ..gsxr1000() })]);
         bench.rest();
         for (signal, value) in [("chassis.yaw", 2.1), ("chassis.roll", 0.7), ("chassis.pitch", 0.2), ("wind.lateral", 12.0)] {
             bench.set(signal, value);

@@ -19,8 +19,8 @@
 use super::{ChainRun, Run, Sprocket};
 use crate::Planar;
 use mbody::assembly::{ElementDescription, Site};
-use mbody::description::quantity::{PositiveQuantity, Quantity};
 use mbody::description::quantity::dimension::{Force as ForceDimension, Length};
+use mbody::description::quantity::{PositiveQuantity, Quantity};
 use mbody::force::{Declared, Effort, Energy, Evaluated, ForceLaw, InputDeclared, OutputDeclared};
 use mbody::model::BodyIndex;
 use mbody::scalar::{SystemScalar, smooth::splus};
@@ -215,10 +215,7 @@ mod tests {
             Run::Upper,
         );
         let pivot: Planar<f64> = [0.56, 0.4].into();
-        let slope = super::super::squat::squat_slope(
-            [0.0, 0.0].into(),
-            super::super::squat::squat_point(&run, pivot, [0.0, 0.32].into()),
-        );
+        let slope = super::super::squat::squat_slope([0.0, 0.0].into(), super::super::squat::squat_point(&run, pivot, [0.0, 0.32].into()));
         // road force that balances the wheel about its axle, and its vertical partner along K–A
         let thrust = 400.0 / 0.32;
         let force = Planar::new(thrust, thrust * slope);

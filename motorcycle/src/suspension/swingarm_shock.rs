@@ -269,7 +269,8 @@ impl LinkageDescription {
         let axis = axis_in_parent(site, joint);
         if axis.y.abs() < 1.0 - 1e-9 {
             let name = site.model().body(joint).joint_name.clone();
-            let message = format!("joint `{name}` does not turn about the lateral axis, but a linkage is a mechanism of the plane of symmetry");
+            let message =
+                format!("joint `{name}` does not turn about the lateral axis, but a linkage is a mechanism of the plane of symmetry");
             site.refuse("joint", "wrong_joint", message);
             return None;
         }
