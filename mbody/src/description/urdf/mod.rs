@@ -172,8 +172,8 @@ pub struct Mimic {
 
 /// Reads a URDF text; `file` is its name in messages.
 ///
-/// Gives the robot unless there is an error among the findings. `--set` changes are made with [`Robot::set`], and judged with
-/// [`Robot::check`].
+/// Gives the robot wherever its tree and its numbers can be read, even where [`Robot::check`] finds numbers that are physically
+/// impossible: ask the findings for errors. Changes are made with [`Robot::set`], and judged by [`Robot::check`].
 pub fn read(file: &str, text: &str) -> (Option<Robot>, Findings) {
     let document = match place::parse(file, text) {
         Ok(document) => document,
@@ -194,8 +194,7 @@ pub fn read(file: &str, text: &str) -> (Option<Robot>, Findings) {
         }
     };
     findings.extend(robot.check());
-    let good = !findings.has_errors();
-    (good.then_some(robot), findings.sorted())
+    (Some(robot), findings.sorted())
 }
 
 impl Robot {
