@@ -4,19 +4,19 @@ use super::entry::{Inertial, JOINT_ENTRIES};
 use super::place::Places;
 use super::skeleton::{Skeleton, SkeletonJoint, TreeOrder};
 use super::{JointKind, Limits, Link, Mimic, Robot, Shape, UrdfJoint, Visual};
-use crate::description::finding::Finding;
+use crate::description::finding::{Finding, Findings};
 use crate::spatial::{Pose, Vec3};
 use std::sync::Arc;
 use urdf_rs::Geometry;
 
 /// The robot of a text whose grammar and tree have been checked.
-pub(super) fn robot(text: &str, skeleton: &Skeleton, order: TreeOrder, places: Places) -> Result<Robot, Finding> {
+pub(super) fn robot(file: &str, text: &str, skeleton: &Skeleton, order: TreeOrder, places: Places) -> Result<Robot, Findings> {
     let data = urdf_rs::read_from_string(text).map_err(|e| {
         let reason: String = e.to_string().chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect();
-        Finding::error("not_urdf", format!("the URDF reader refuses this text: {reason}"))
+        Finding::error("not_urdf", format!("the URDF reader refuses this text: {reason}")).in_file(file)
     })?;
     if data.links.len() != skeleton.links.len() || data.joints.len() != skeleton.joints.len() {
-        return Err(Finding::error("not_urdf", "links or joints stand where URDF does not expect them"));
+        return Err(Finding::error("not_urdf", "links or joints stand where URDF does not expect them").in_file(file).into());
     }
     let links = order.links.iter().map(|k| link(&data.links[*k], skeleton.links[*k].has_inertial, &data.materials));
     let joints = order.joints.iter().map(|k| joint(&data.joints[*k], &skeleton.joints[*k]));

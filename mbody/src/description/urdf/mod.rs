@@ -177,7 +177,7 @@ pub struct Mimic {
 pub fn read(file: &str, text: &str) -> (Option<Robot>, Findings) {
     let document = match place::parse(file, text) {
         Ok(document) => document,
-        Err(finding) => return (None, finding.into()),
+        Err(findings) => return (None, findings),
     };
     let mut places = Places::new(file, text);
     let mut findings = grammar::check(&document, &mut places);
@@ -186,10 +186,10 @@ pub fn read(file: &str, text: &str) -> (Option<Robot>, Findings) {
     let Some(order) = order.filter(|_| !findings.has_errors()) else {
         return (None, findings.sorted());
     };
-    let robot = match convert::robot(text, &skeleton, order, places) {
+    let robot = match convert::robot(file, text, &skeleton, order, places) {
         Ok(robot) => robot,
-        Err(finding) => {
-            findings.push(finding.in_file(file));
+        Err(refusal) => {
+            findings.extend(refusal);
             return (None, findings.sorted());
         }
     };
