@@ -175,11 +175,17 @@ const ROBOT: Element = Element {
 
 /// Everything in the text that URDF does not have, or that cannot be read; fills `places`.
 pub(super) fn check(document: &Document, places: &mut Places) -> Findings {
-    let mut checker = Checker { places, findings: Findings::new(), foreign: BTreeMap::new() };
+    let mut checker = Checker { places, findings: Findings::new(), foreign: BTreeMap::new(), unknown: Vec::new() };
     let root = document.root_element();
     checker.attributes(root, &ROBOT, "robot");
     checker.children(root, &ROBOT, "");
-    let Checker { places, mut findings, foreign, .. } = checker;
+    let Checker { places, mut findings, foreign, unknown } = checker;
+    for (_, times, mut finding) in unknown {
+        if times > 1 {
+            finding.message.push_str(&format!(", and {} more like it", times - 1));
+        }
+        findings.push(finding);
+    }
     for (name, (times, at)) in foreign {
         let what =
             if times == 1 { format!("`<{name}>` is for other programs") } else { format!("{times} `<{name}>` are for other programs") };
@@ -193,6 +199,8 @@ struct Checker<'a> {
     findings: Findings,
     /// How often an element for other programs occurs, and where first.
     foreign: BTreeMap<String, (usize, (usize, usize))>,
+    /// Element and name of what is unknown, how often it occurs, what to say about the first one.
+    unknown: Vec<((String, String), usize, Finding)>,
 }
 
 impl Checker<'_> {
@@ -225,7 +233,18 @@ impl Checker<'_> {
         }
         let finding = Finding::warning("unknown_element", format!("unknown element `<{name}>` in {}", owner(child)))
             .with_hint_from(suggestion(name, known.children.iter().map(|e| e.name)));
-        self.report(finding, &path_of(child, path), place::of_node(child));
+        self.report_unknown((known.name, name), finding, &path_of(child, path), place::of_node(child));
+    }
+
+    /// Of the same unknown thing in many places, one is reported.
+    fn report_unknown(&mut self, (element, name): (&str, &str), finding: Finding, path: &str, at: (usize, usize)) {
+        match self.unknown.iter_mut().find(|((e, n), ..)| e == element && n == name) {
+            Some((_, times, _)) => *times += 1,
+            None => {
+                let finding = self.places.at(finding.at_path(path), at);
+                self.unknown.push(((element.to_string(), name.to_string()), 1, finding));
+            }
+        }
     }
 
     /// What is missing, and what stands there twice.
@@ -269,7 +288,7 @@ impl Checker<'_> {
                 None => {
                     let finding = Finding::warning("unknown_attribute", format!("unknown attribute `{name}` of {}", this(node)))
                         .with_hint_from(suggestion(name, known.attributes.iter().map(|(n, _, _)| *n)));
-                    self.report(finding, &path, at);
+                    self.report_unknown((known.name, name), finding, &path, at);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Where entries stand in the text.
 
-use crate::description::finding::Finding;
+use crate::description::finding::{Finding, Findings};
 use roxmltree::{Attribute, Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
@@ -61,7 +61,7 @@ fn position(document: &Document, offset: usize) -> (usize, usize) {
 }
 
 /// Reads XML whose outermost element is `<robot>`.
-pub(super) fn parse<'a>(file: &str, text: &'a str) -> Result<Document<'a>, Finding> {
+pub(super) fn parse<'a>(file: &str, text: &'a str) -> Result<Document<'a>, Findings> {
     // far below what exhausts memory, far above any machine
     let options = ParsingOptions { nodes_limit: 2_000_000, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| {
@@ -69,11 +69,11 @@ pub(super) fn parse<'a>(file: &str, text: &'a str) -> Result<Document<'a>, Findi
         let message = format!("this is not XML: {}", without_position(&e.to_string()));
         let finding = Finding::error("not_xml", message).in_file(file).at_line(text, at.row as usize, at.col as usize);
         let xacro = text.contains("xacro:");
-        if xacro { finding.with_hint("this looks like xacro; expand it to plain URDF first") } else { finding }
+        Findings::from(if xacro { finding.with_hint("this looks like xacro; expand it to plain URDF first") } else { finding })
     })?;
     let root = document.root_element();
     let (line, column) = of_node(root);
-    let refuse = |code, message: String| Err(Finding::error(code, message).in_file(file).at_line(text, line, column));
+    let refuse = |code, message: String| Err(Finding::error(code, message).in_file(file).at_line(text, line, column).into());
     if root.tag_name().name() != "robot" {
         return refuse("not_urdf", format!("the outermost element is `<{}>`, expected `<robot>`", root.tag_name().name()));
     }

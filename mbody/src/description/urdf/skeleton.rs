@@ -20,7 +20,7 @@ pub(super) struct SkeletonLink {
 
 pub(super) struct SkeletonJoint {
     pub name: String,
-    kind: Option<JointKind>,
+    pub kind: Option<JointKind>,
     type_name: String,
     pub parent: String,
     pub child: String,
@@ -35,6 +35,7 @@ pub(super) struct TreeOrder {
     pub joints: Vec<usize>,
 }
 
+/// Values of the attribute `type`.
 const KINDS: [(&str, JointKind); 7] = [
     ("fixed", JointKind::Fixed),
     ("revolute", JointKind::Revolute),
@@ -158,9 +159,13 @@ impl<'a> Checker<'a> {
                 None => error(format!("joint `{}` mimics joint `{leader}`, which does not exist", joint.name))
                     .with_hint_from(suggestion(leader, joints.iter().filter(|j| single(j)).map(|j| j.name.as_str()))),
                 Some(_) if *leader == joint.name => error(format!("joint `{leader}` mimics itself")),
+                Some(_) if joint.kind == Some(JointKind::Fixed) => {
+                    Finding::note("unused_mimic", format!("joint `{}` mimics `{leader}`, but it is fixed: this is not used", joint.name))
+                        .at_path(&path)
+                }
                 Some(other) if !single(other) || !single(joint) => {
-                    let both = [joint, other].into_iter().find(|j| !single(j)).map_or("", |j| j.name.as_str());
-                    error(format!("joint `{}` mimics `{leader}`, but `{both}` has no single coordinate", joint.name))
+                    let many = if single(other) { &joint.name } else { leader };
+                    error(format!("joint `{}` mimics `{leader}`, but `{many}` has no single coordinate", joint.name))
                 }
                 Some(_) => match loop_from(&joint.name, |name| of.get(name)?.mimic.as_deref()) {
                     // a loop is reported once, at the first of its joints
