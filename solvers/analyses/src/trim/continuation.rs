@@ -127,7 +127,14 @@ impl Walk {
         point
     }
 
-    fn point(&self, problem: &TrimProblem<'_>, (ending, solved): (Ending, bool), iterations: usize, residual: f64, x: Vec<f64>) -> TrimPoint {
+    fn point(
+        &self,
+        problem: &TrimProblem<'_>,
+        (ending, solved): (Ending, bool),
+        iterations: usize,
+        residual: f64,
+        x: Vec<f64>,
+    ) -> TrimPoint {
         let (y, yd, u, outputs) = problem.point();
         TrimPoint {
             goals: problem.goals(),
