@@ -1,6 +1,6 @@
 //! A quantity over a grid of two others: filled bands, labeled lines, and the infeasible regions with their causes.
 
-use super::axis::{self, Axis, Scale};
+use super::axis::{self, Axis};
 use super::canvas::{Anchor, CAP_HEIGHT, Canvas, Ground, Pen, Point, Rect, Setting};
 use super::contour_label::{self, Labeled};
 use super::field::{Edges, Field};
