@@ -1,7 +1,7 @@
 //! A thin layer over SVG text: shapes in, markup out.
 
 use super::style::{Color, INK, WHITE};
-use super::text::FAMILIES;
+use super::text::{self, FAMILIES};
 use std::fmt::Write;
 
 /// A point on the canvas, y downwards.
@@ -84,12 +84,23 @@ impl Setting {
     }
 }
 
+/// How letters are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Lettering {
+    /// As text, which can be searched and edited; the reader's machine supplies the font.
+    #[default]
+    Text,
+    /// As outlines of the embedded font, the same everywhere.
+    Outlines,
+}
+
 /// Height of digits and capitals as a share of the font size; half of it centers a text on a line.
 pub(super) const CAP_HEIGHT: f64 = 0.73;
 
 /// An SVG document under construction.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
+    lettering: Lettering,
     body: String,
     definitions: String,
     clips: usize,
@@ -97,8 +108,8 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    pub(super) fn new() -> Self {
-        Self::default()
+    pub(super) fn new(lettering: Lettering) -> Self {
+        Self { lettering, ..Self::default() }
     }
 
     /// Draws a polyline; a closed ring when the last point equals the first.
@@ -157,6 +168,33 @@ impl Canvas {
         if text.is_empty() {
             return;
         }
+        match self.lettering {
+            Lettering::Text => self.letters(text, setting),
+            Lettering::Outlines => self.outlines(text, setting),
+        }
+    }
+
+    fn outlines(&mut self, text: &str, setting: Setting) {
+        let Setting { at: (x, y), size, anchor, turn, color } = setting;
+        let back = match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5,
+            Anchor::End => 1.0,
+        } * text::width(text, size);
+        let (data, scale) = text::outlines(text, size);
+        let _ = writeln!(
+            self.body,
+            r#"<path transform="translate({} {}) rotate({}) translate({} 0) scale({scale:.6} {:.6})" d="{data}" fill="{}"/>"#,
+            short(x),
+            short(y),
+            short(turn),
+            short(-back),
+            -scale,
+            color.hex()
+        );
+    }
+
+    fn letters(&mut self, text: &str, setting: Setting) {
         let Setting { at: (x, y), size, anchor, turn, color } = setting;
         let anchor = match anchor {
             Anchor::Start => "",

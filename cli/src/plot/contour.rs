@@ -1,7 +1,7 @@
 //! A quantity over a grid of two others: filled bands, labeled lines, and the infeasible regions with their causes.
 
 use super::axis::{self, Axis};
-use super::canvas::{Anchor, CAP_HEIGHT, Canvas, Ground, Pen, Point, Rect, Setting};
+use super::canvas::{Anchor, CAP_HEIGHT, Canvas, Ground, Lettering, Pen, Point, Rect, Setting};
 use super::contour_label::{self, Labeled};
 use super::field::{Edges, Field};
 use super::legend::{Key, Legend};
@@ -60,15 +60,15 @@ impl Contour {
     }
 
     /// The figure as SVG.
-    pub(super) fn draw(&self) -> String {
+    pub(super) fn draw(&self, lettering: Lettering) -> String {
         match (self.columns.len(), self.rows.len()) {
-            (_, 1) => self.section(&self.x, &self.columns, (&self.y, self.rows[0])).draw(),
-            (1, _) => self.section(&self.y, &self.rows, (&self.x, self.columns[0])).draw(),
-            _ => self.draw_map(),
+            (_, 1) => self.section(&self.x, &self.columns, (&self.y, self.rows[0])).draw(lettering),
+            (1, _) => self.section(&self.y, &self.rows, (&self.x, self.columns[0])).draw(lettering),
+            _ => self.draw_map(lettering),
         }
     }
 
-    fn draw_map(&self) -> String {
+    fn draw_map(&self, lettering: Lettering) -> String {
         let x_range = self.x.span(self.columns.iter().copied(), 0.0);
         let y_range = self.y.span(self.rows.iter().copied(), 0.0);
         let y = Side::vertical(&self.y, y_range, style::PANEL_HEIGHT);
@@ -82,7 +82,7 @@ impl Contour {
         let field = Field::new(&columns, &rows, &values);
         let levels = Levels::choose(&values);
 
-        let mut canvas = Canvas::new();
+        let mut canvas = Canvas::new(lettering);
         canvas.clip(frame);
         let causes = self.draw_causes(&mut canvas, &columns, &rows);
         if let Some(levels) = &levels {

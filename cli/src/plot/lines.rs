@@ -1,7 +1,7 @@
 //! One or several quantities against another, in panels stacked over a common horizontal axis.
 
 use super::axis::Axis;
-use super::canvas::{Anchor, Canvas, Ground, Pen, Point, Rect, Setting};
+use super::canvas::{Anchor, Canvas, Ground, Lettering, Pen, Point, Rect, Setting};
 use super::legend::{Key, Legend, draw_marker};
 use super::panel::{Panel, ROOM_BELOW, Side};
 use super::{style, text};
@@ -72,9 +72,9 @@ const FEW: usize = 32;
 
 impl Lines {
     /// The figure as SVG.
-    pub(super) fn draw(&self) -> String {
+    pub(super) fn draw(&self, lettering: Lettering) -> String {
         let (panels, labels) = self.layout();
-        let mut canvas = Canvas::new();
+        let mut canvas = Canvas::new(lettering);
         let mut right = panels.first().map_or(style::PANEL_WIDTH, |p| p.frame.right()) + style::BORDER + style::GAP;
         let mut bottom = 0.0_f64;
         let legends = self.band_legend();

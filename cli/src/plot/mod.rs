@@ -1,7 +1,7 @@
 //! Figures: one style, SVG and PNG, no system library.
 //!
-//! A [`Figure`] is plain data. [`Figure::svg`] composes the drawing, [`Figure::png`] rasterizes that very drawing with
-//! a font compiled into the binary, so both show the same thing everywhere. Writing the file is the caller's business.
+//! A [`Figure`] is plain data. [`Figure::svg`] composes the drawing with searchable text, [`Figure::png`] rasterizes the same drawing with
+//! the letters as outlines of a font compiled into the binary, so it looks the same everywhere. Writing the file is the caller's business.
 
 mod axis;
 mod canvas;
@@ -19,6 +19,7 @@ pub use axis::{Axis, Scale};
 pub use contour::{Contour, Node};
 pub use lines::{Band, Curve, LinePanel, Lines, Markers};
 
+use canvas::Lettering;
 use std::path::Path;
 
 /// A figure as data, ready to be drawn.
@@ -33,9 +34,13 @@ pub enum Figure {
 impl Figure {
     /// The figure as a standalone SVG document.
     pub fn svg(&self) -> String {
+        self.draw(Lettering::Text)
+    }
+
+    fn draw(&self, lettering: Lettering) -> String {
         match self {
-            Self::Contour(figure) => figure.draw(),
-            Self::Lines(figure) => figure.draw(),
+            Self::Contour(figure) => figure.draw(lettering),
+            Self::Lines(figure) => figure.draw(lettering),
         }
     }
 
@@ -44,7 +49,7 @@ impl Figure {
     /// # Errors
     /// [`PlotError::Raster`] when the image would be empty or too large.
     pub fn png(&self, scale: f64) -> Result<Vec<u8>, PlotError> {
-        raster::png(&self.svg(), scale)
+        raster::png(&self.draw(Lettering::Outlines), scale)
     }
 
     /// The figure in the given file format.

@@ -1,8 +1,7 @@
-//! From SVG to PNG in pure Rust, with the embedded font and no other.
+//! From SVG to PNG in pure Rust. Letters must be outlines: the rasterizer is built without fonts.
 
-use super::{PlotError, text};
+use super::PlotError;
 use resvg::{tiny_skia, usvg};
-use std::sync::Arc;
 
 /// Largest side of an image in pixels.
 const LARGEST: f64 = 20_000.0;
@@ -10,11 +9,7 @@ const LARGEST: f64 = 20_000.0;
 /// `svg` as PNG with `scale` pixels per unit.
 pub(super) fn png(svg: &str, scale: f64) -> Result<Vec<u8>, PlotError> {
     let failed = |because: String| PlotError::Raster { because };
-    let mut fonts = usvg::fontdb::Database::new();
-    fonts.load_font_data(text::font().to_vec());
-    fonts.set_sans_serif_family("DejaVu Sans");
-    let options = usvg::Options { fontdb: Arc::new(fonts), font_family: "DejaVu Sans".to_owned(), ..usvg::Options::default() };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|e| failed(e.to_string()))?;
+    let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).map_err(|e| failed(e.to_string()))?;
     let (width, height) = (f64::from(tree.size().width()) * scale, f64::from(tree.size().height()) * scale);
     if !(1.0..=LARGEST).contains(&width) || !(1.0..=LARGEST).contains(&height) {
         return Err(failed(format!("{width:.0} × {height:.0} pixels at scale {scale}")));

@@ -197,3 +197,73 @@ fn absurd_scale_is_refused() {
     assert!(matches!(figure.png(1e9), Err(PlotError::Raster { .. })));
     assert!(matches!(figure.png(0.0), Err(PlotError::Raster { .. })));
 }
+
+/// A text on the canvas as a rectangle about `center`, turned by `turn` radians.
+struct Lettered {
+    text: String,
+    center: (f64, f64),
+    half: (f64, f64),
+    turn: f64,
+}
+
+impl Lettered {
+    /// Reads the line of an SVG that sets a text.
+    fn read(line: &str) -> Option<Self> {
+        let attribute = |name: &str| Some(line.split_once(&format!(" {name}=\""))?.1.split('"').next()?.to_owned());
+        let number = |name: &str| attribute(name)?.parse::<f64>().ok();
+        let text = line.strip_prefix("<text")?.split_once('>')?.1.split('<').next()?.to_owned();
+        let (at, size) = ((number("x")?, number("y")?), number("font-size")?);
+        let width = text::width(&text, size);
+        let ahead = match attribute("text-anchor").as_deref() {
+            Some("middle") => 0.0,
+            Some("end") => -width / 2.0,
+            _ => width / 2.0,
+        };
+        let turn = attribute("transform")
+            .and_then(|t| t.strip_prefix("rotate(")?.split(' ').next()?.parse::<f64>().ok())
+            .unwrap_or(0.0)
+            .to_radians();
+        let rise = canvas::CAP_HEIGHT / 2.0 * size;
+        let center = (at.0 + ahead * turn.cos() + rise * turn.sin(), at.1 + ahead * turn.sin() - rise * turn.cos());
+        Some(Self { text, center, half: (width / 2.0, rise), turn })
+    }
+
+    fn corners(&self) -> [(f64, f64); 4] {
+        let (sin, cos) = self.turn.sin_cos();
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(a, b)| {
+            let (x, y) = (a * self.half.0, b * self.half.1);
+            (self.center.0 + x * cos - y * sin, self.center.1 + x * sin + y * cos)
+        })
+    }
+
+    /// Whether no side of either rectangle separates the two.
+    fn overlaps(&self, other: &Self) -> bool {
+        let range = |corners: [(f64, f64); 4], (x, y): (f64, f64)| {
+            corners.iter().map(|c| c.0 * x + c.1 * y).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)))
+        };
+        [self.turn, other.turn].into_iter().flat_map(|t| [(t.cos(), t.sin()), (-t.sin(), t.cos())]).all(|axis| {
+            let (a, b) = (range(self.corners(), axis), range(other.corners(), axis));
+            a.0 < b.1 && b.0 < a.1
+        })
+    }
+}
+
+#[test]
+fn no_text_overlaps_another_or_leaves_the_canvas() {
+    for (name, figure) in samples() {
+        let svg = figure.svg();
+        let size =
+            |side: &str| svg.split_once(&format!(" {side}=\"")).and_then(|s| s.1.split('"').next()?.parse::<f64>().ok()).expect("a size");
+        let (width, height) = (size("width"), size("height"));
+        let texts: Vec<Lettered> = svg.lines().filter_map(Lettered::read).collect();
+        assert!(texts.len() > 5, "{name} has labels");
+        assert!(texts[0].overlaps(&texts[0]), "the test can fail");
+        for (k, text) in texts.iter().enumerate() {
+            let inside = |c: &(f64, f64)| (0.0..=width).contains(&c.0) && (0.0..=height).contains(&c.1);
+            assert!(text.corners().iter().all(inside), "{name}: `{}` leaves the canvas", text.text);
+            for other in &texts[..k] {
+                assert!(!text.overlaps(other), "{name}: `{}` and `{}` overlap", text.text, other.text);
+            }
+        }
+    }
+}

@@ -1,19 +1,16 @@
 //! Measures of text in the embedded font, and numbers as they are printed in figures.
 
+use std::fmt::Write;
 use std::sync::OnceLock;
-use ttf_parser::Face;
+use ttf_parser::{Face, OutlineBuilder};
 
-/// The embedded font: DejaVu Sans Condensed (Bitstream Vera license), nearly as wide as Arial and Helvetica, which stand in for it.
-pub(super) fn font() -> &'static [u8] {
-    dejavu::sans_condensed::regular()
-}
-
-/// Font families in the order of preference, for the SVG. The embedded font knows itself as `DejaVu Sans`, stretch condensed.
+/// Font families in the order of preference, for the SVG. The embedded font is the first; Arial and Helvetica are nearly as wide.
 pub(super) const FAMILIES: &str = "DejaVu Sans Condensed, DejaVu Sans, Arial, Helvetica, Liberation Sans, sans-serif";
 
+/// The embedded font, DejaVu Sans Condensed (Bitstream Vera license).
 fn face() -> Option<&'static Face<'static>> {
     static FACE: OnceLock<Option<Face<'static>>> = OnceLock::new();
-    FACE.get_or_init(|| Face::parse(font(), 0).ok()).as_ref()
+    FACE.get_or_init(|| Face::parse(dejavu::sans_condensed::regular(), 0).ok()).as_ref()
 }
 
 /// Width of `text` set in `size`, kerning ignored.
@@ -21,6 +18,45 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     let Some(face) = face() else { return 0.55 * size * text.chars().count() as f64 };
     let advance = |c| face.glyph_index(c).and_then(|g| face.glyph_hor_advance(g)).unwrap_or(face.units_per_em() / 2);
     text.chars().map(|c| f64::from(advance(c))).sum::<f64>() * size / f64::from(face.units_per_em())
+}
+
+/// SVG path data of `text` in font units, y upwards, from the origin to the right, and the scale that makes it `size`.
+pub(super) fn outlines(text: &str, size: f64) -> (String, f64) {
+    let Some(face) = face() else { return (String::new(), 1.0) };
+    let mut pen = PathPen { x: 0.0, data: String::new() };
+    for glyph in text.chars().map(|c| face.glyph_index(c).unwrap_or_default()) {
+        face.outline_glyph(glyph, &mut pen);
+        pen.x += f32::from(face.glyph_hor_advance(glyph).unwrap_or(face.units_per_em() / 2));
+    }
+    (pen.data, size / f64::from(face.units_per_em()))
+}
+
+/// Collects glyph outlines side by side.
+struct PathPen {
+    x: f32,
+    data: String,
+}
+
+impl OutlineBuilder for PathPen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        let _ = write!(self.data, "M{} {y}", self.x + x);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        let _ = write!(self.data, "L{} {y}", self.x + x);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        let _ = write!(self.data, "Q{} {y1} {} {y}", self.x + x1, self.x + x);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        let _ = write!(self.data, "C{} {y1} {} {y2} {} {y}", self.x + x1, self.x + x2, self.x + x);
+    }
+
+    fn close(&mut self) {
+        self.data.push('Z');
+    }
 }
 
 /// `value` with so many decimals and a typographic minus sign; never `−0`.
