@@ -127,15 +127,16 @@ impl Ticks {
     }
 }
 
-/// Step of 1, 2, 2.5 or 5 times a power of ten that cuts `span` into about `count` parts, and into how many parts minor ticks cut it.
+/// Step of 1, 2 or 5 times a power of ten that cuts `span` most nearly into `count` parts (at most √2 times as many), and into how many
+/// parts minor ticks cut it.
 pub(super) fn nice_step(span: f64, count: usize) -> (f64, u32) {
     let raw = span / count.max(1) as f64;
     let power = 10f64.powf(raw.log10().floor());
     let (factor, parts) = match raw / power {
-        r if r <= 1.0 + 1e-9 => (1.0, 5),
-        r if r <= 2.0 + 1e-9 => (2.0, 4),
-        r if r <= 2.5 + 1e-9 => (2.5, 5),
-        r if r <= 5.0 + 1e-9 => (5.0, 5),
+        // geometric means of neighboring steps
+        r if r <= 2f64.sqrt() => (1.0, 5),
+        r if r <= 10f64.sqrt() => (2.0, 4),
+        r if r <= 50f64.sqrt() => (5.0, 5),
         _ => (10.0, 5),
     };
     (factor * power, parts)
@@ -181,7 +182,7 @@ mod tests {
     fn ticks_are_nice_numbers() {
         assert_eq!(labels(10.0, 60.0, 6), ["10", "20", "30", "40", "50", "60"]);
         assert_eq!(labels(-0.3, 0.3, 6), ["\u{2212}0.3", "\u{2212}0.2", "\u{2212}0.1", "0.0", "0.1", "0.2", "0.3"]);
-        assert_eq!(labels(0.0, 1.0, 4), ["0.00", "0.25", "0.50", "0.75", "1.00"]);
+        assert_eq!(labels(0.0, 1.0, 4), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
     }
 
     #[test]

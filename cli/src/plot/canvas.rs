@@ -240,7 +240,7 @@ impl Canvas {
         let title = if title.is_empty() { String::new() } else { format!("<title>{}</title>\n", escape(title)) };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
-             font-family=\"{FAMILIES}\" font-stretch=\"condensed\">\n{title}<defs>\n{}</defs>\n\
+             font-family=\"{FAMILIES}\">\n{title}<defs>\n{}</defs>\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n{}</svg>\n",
             self.definitions,
             WHITE.hex(),

@@ -246,7 +246,7 @@ impl Levels {
             let exponent = axis::common_exponent(low);
             return Some(Self { edges: vec![low, low], open: (false, false), map: ColorMap::Sequential, exponent, decimals: 3 });
         }
-        let (step, _) = axis::nice_step(high - low, 10);
+        let (step, _) = axis::nice_step(high - low, 9);
         let edges: Vec<f64> = axis::multiples((low / step).floor() * step, (high / step).ceil() * step, step);
         let exponent = axis::common_exponent(edges[0].abs().max(edges[edges.len() - 1].abs()));
         let decimals = text::decimals(step / 10f64.powi(exponent));

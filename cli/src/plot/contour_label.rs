@@ -20,8 +20,10 @@ pub(super) struct Place {
 
 /// Distance between the points by which lines are represented.
 const PITCH: f64 = 3.0;
-/// Free space before and after a label on its line.
-const AIR: f64 = 5.0;
+/// Free space before and after a label on its line; more where a minus sign might be taken for a piece of the line.
+fn air(label: &str) -> f64 {
+    if label.starts_with('\u{2212}') { 8.0 } else { 4.0 }
+}
 
 /// A line with its arc length.
 struct Track {
@@ -102,7 +104,7 @@ pub(super) fn place(lines: &[Labeled], walls: &[Vec<Point>], frame: Rect) -> Vec
     let mut places = Vec::with_capacity(lines.len());
     for (k, labeled) in lines.iter().enumerate() {
         let width = text::width(&labeled.label, style::CONTOUR_LABEL_SIZE);
-        let best = candidates(&tracks[k], width)
+        let best = candidates(&tracks[k], width, air(&labeled.label))
             .filter_map(|candidate| cost(&candidate, &tracks[k], k, &obstacles, frame).map(|c| (c, candidate)))
             .min_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, Candidate { outline, .. })) = &best {
@@ -119,8 +121,8 @@ struct Candidate {
 }
 
 /// Every place along the line at which the line is nearly straight over the width of the label.
-fn candidates(track: &Track, width: f64) -> impl Iterator<Item = Candidate> {
-    let half = width / 2.0 + AIR;
+fn candidates(track: &Track, width: f64, air: f64) -> impl Iterator<Item = Candidate> {
+    let half = width / 2.0 + air;
     let usable = (track.total() - 2.0 * half - 2.0 * PITCH).max(0.0);
     // a label must not eat most of its line
     let n = if track.total() < 1.8 * width + 12.0 { 0 } else { (usable / PITCH) as usize };

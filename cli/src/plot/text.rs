@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use ttf_parser::{Face, OutlineBuilder};
 
 /// Font families in the order of preference, for the SVG. The embedded font is the first; Arial and Helvetica are nearly as wide.
-pub(super) const FAMILIES: &str = "DejaVu Sans Condensed, DejaVu Sans, Arial, Helvetica, Liberation Sans, sans-serif";
+pub(super) const FAMILIES: &str = "DejaVu Sans Condensed, Arial, Helvetica, Liberation Sans, sans-serif";
 
 /// The embedded font, DejaVu Sans Condensed (Bitstream Vera license).
 fn face() -> Option<&'static Face<'static>> {
