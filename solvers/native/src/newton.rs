@@ -1,11 +1,14 @@
 //! Newton's method with a backtracking line search, for small square systems with exact Jacobians.
 //!
-//! x ← x + λ p with J p = −f. The full step λ = 1 is tried first; λ shrinks by quadratic interpolation (between a tenth and a
-//! half of the last one) until ‖D f(x + λ p)‖² ≤ (1 − 2 α λ) ‖D f(x)‖² with α = 10⁻⁴ (Armijo), and is halved where f cannot be
-//! evaluated. D holds the reciprocals of `equation_scale`. A step that would cross a bound ends at nine tenths of the way.
+//! x ← x + λ p with J p = −f. The full step λ = 1 is tried first; λ is halved until ‖D f(x + λ p)‖² ≤ (1 − 2 α λ) ‖D f(x)‖² with
+//! α = 10⁻⁴ (Armijo), and where f cannot be evaluated. D holds the reciprocals of `equation_scale`. A step that would cross a
+//! bound ends at nine tenths of the way.
+//!
+//! Halving, not interpolation: where f grows steeply along p, a fitted parabola jumps over the useful λ to one a tenth as long, and
+//! the iteration crawls (Brown's almost-linear system from its published start shows it).
 //!
 //! Source: J. E. Dennis, R. B. Schnabel, *Numerical Methods for Unconstrained Optimization and Nonlinear Equations*, SIAM 1996,
-//! section 6.3.2 and algorithm A6.3.1; the treatment of bounds follows KINSOL.
+//! section 6.3.1; the treatment of bounds follows KINSOL.
 
 use crate::elimination::Elimination;
 use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, EvalError, Matrix};
@@ -170,21 +173,17 @@ impl Work {
             tally.residuals += 1;
             match problem.residual(&self.trial, &mut self.trial_f).and_then(|()| finite(&self.trial_f)) {
                 Ok(()) => {
+                    failed = None;
                     let after = scaled_square(&self.trial_f, problem.equation_scale());
-                    if after <= (1.0 - 2.0 * ARMIJO * share) * before {
+                    // for tiny shares the first test alone would pass where rounding leaves no change at all
+                    if after <= (1.0 - 2.0 * ARMIJO * share) * before && after < before {
                         return Ok(share * length);
                     }
-                    failed = None;
-                    // minimum of the parabola through both values with the slope −2 `before` at the start
-                    let parabola = before * share * share / (after - before + 2.0 * before * share);
-                    share = parabola.clamp(0.1 * share, 0.5 * share);
                 }
-                Err(error @ EvalError::Recoverable { .. }) => {
-                    failed = Some(error);
-                    share *= 0.5;
-                }
+                Err(error @ EvalError::Recoverable { .. }) => failed = Some(error),
                 Err(error @ EvalError::Fatal { .. }) => return Err(AlgebraicEnding::Evaluation(error)),
             }
+            share *= 0.5;
         }
         Err(failed.map_or(AlgebraicEnding::NoDecrease, AlgebraicEnding::Evaluation))
     }

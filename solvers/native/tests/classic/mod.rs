@@ -168,12 +168,11 @@ pub fn failures_are_named(method: &mut dyn AlgebraicMethod) {
     assert_eq!((outcome.ending, outcome.iterations), (AlgebraicEnding::MaxIterations, 2));
 }
 
-/// A local minimum of ‖f‖ is not taken for a solution, and no minimum lower than the published one is claimed.
+/// A local minimum of ‖f‖ is not taken for a solution.
 pub fn local_minima_are_no_solutions(method: &mut dyn AlgebraicMethod) {
     for system in [freudenstein_roth(), no_real_root()] {
         let (ending, x) = ending_of(system, method);
-        let given_up = matches!(ending, AlgebraicEnding::NoDecrease | AlgebraicEnding::Stalled | AlgebraicEnding::Singular);
-        assert!(given_up, "{ending:?} at {x:?}");
+        assert!(!matches!(ending, AlgebraicEnding::Converged | AlgebraicEnding::Evaluation(_)), "{ending:?} at {x:?}");
     }
 }
 
