@@ -8,5 +8,13 @@
 #![forbid(unsafe_code)]
 #![allow(non_snake_case)]
 
+pub mod algorithm;
+pub mod contact;
+pub mod description;
+pub mod dynamics;
+pub mod force;
+pub mod joint;
+pub mod model;
 pub mod scalar;
 pub mod spatial;
+pub mod stage;

@@ -7,8 +7,10 @@ mod lanes;
 mod per_scalar;
 mod real;
 pub mod smooth;
+pub mod spline;
 
 pub use jet::Jet;
 pub use lanes::Lanes;
 pub use per_scalar::{Family, Make, PerScalar, SystemScalar};
 pub use real::Real;
+pub use spline::{CubicSpline, Pchip};

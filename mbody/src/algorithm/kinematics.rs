@@ -1,0 +1,56 @@
+//! Poses, twists and accelerations, from the root outward.
+//!
+//! `X_WB = X_WP X_PB(q)`, `V = ᴮXᴾ V_P + H v`, `A = ᴮXᴾ A_P + H v̇ + Ḣ v + V × H v`.
+//! Source: Featherstone (2008), equations 5.14–5.16.
+
+use crate::model::Model;
+use crate::scalar::SystemScalar;
+use crate::spatial::{Twist, Vec3};
+use crate::stage::{Acceleration, Position, Velocity, World};
+
+/// Pose of each body in its parent and motion subspaces, from the tree coordinates in `position.q`. O(n).
+#[inline]
+pub fn position<S: SystemScalar>(model: &Model, position: &mut Position<S>) {
+    for (i, body) in model.bodies.iter().enumerate().skip(1) {
+        let (q, H) = (&position.q[body.q.clone()], &mut position.H[body.v.clone()]);
+        position.X_PB[i] = body.joint.place(&body.X_PF, q, H);
+    }
+}
+
+/// Pose of each body in the world. O(n).
+#[inline]
+pub fn world<S: SystemScalar>(model: &Model, position: &Position<S>, world: &mut World<S>) {
+    for (i, body) in model.bodies.iter().enumerate().skip(1) {
+        let p = body.parent.0;
+        world.X_WB[i] = if p == 0 { position.X_PB[i] } else { world.X_WB[p] * position.X_PB[i] };
+    }
+}
+
+/// Twist of each body and bias acceleration of each joint, from the tree velocities in `velocity.v`. O(n).
+#[inline]
+pub fn velocity<S: SystemScalar>(model: &Model, position: &Position<S>, velocity: &mut Velocity<S>) {
+    for (i, body) in model.bodies.iter().enumerate().skip(1) {
+        let (q, v) = (&position.q[body.q.clone()], &velocity.v[body.v.clone()]);
+        let V_J = body.joint.motion(&position.H[body.v.clone()], v);
+        let c_J = body.joint.bias(q, v);
+        let p = body.parent.0;
+        // V × V_J vanishes for a joint on the world
+        (velocity.V_WB[i], velocity.bias[i]) = if p == 0 {
+            (V_J, c_J)
+        } else {
+            let V = position.X_PB[i].twist_to_child(velocity.V_WB[p]) + V_J;
+            (V, c_J + V.cross(V_J))
+        };
+    }
+}
+
+/// Acceleration of each body relative to free fall, from the tree accelerations in `acceleration.vd`. O(n).
+#[inline]
+pub fn acceleration<S: SystemScalar>(model: &Model, position: &Position<S>, velocity: &Velocity<S>, acceleration: &mut Acceleration<S>) {
+    acceleration.A_WB[0] = Twist::new(Vec3::zero(), Vec3::from_f64(-model.gravity));
+    for (i, body) in model.bodies.iter().enumerate().skip(1) {
+        let A_J = body.joint.motion(&position.H[body.v.clone()], &acceleration.vd[body.v.clone()]);
+        let A_P = acceleration.A_WB[body.parent.0];
+        acceleration.A_WB[i] = position.X_PB[i].twist_to_child(A_P) + A_J + velocity.bias[i];
+    }
+}

@@ -1,0 +1,20 @@
+//! The written station: text as typed, read into values that know their units and their place in the file.
+//!
+//! Nothing here opens a path: text is handed down by a [`Library`]. Whatever is wrong is reported as [`Findings`], several at
+//! once, each with file, line and path; see [`finding`].
+
+//DOC
+pub mod finding;
+pub mod quantity;
+//SCH
+//URDF
+
+use std::borrow::Cow;
+
+/// Where descriptions, tables and included files come from, by name.
+///
+/// The command line implements it over bundled files and the disk; tests over a map.
+pub trait Library {
+    /// The text called `name`, or `None` where there is no such text.
+    fn text(&self, name: &str) -> Option<Cow<'_, str>>;
+}

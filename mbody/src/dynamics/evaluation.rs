@@ -1,0 +1,185 @@
+//! One evaluation of the residual, for one scalar.
+//!
+//! `F = [ q̇ − N(q) v ;  Zᵀ(RNEA(q, v, v̇) − τ) ;  element rows ]`. No mass matrix is formed.
+
+use super::System;
+use crate::algorithm::{energy, kinematics, rnea::rnea};
+use crate::force::{Effort, Energy, Evaluated};
+use crate::scalar::{Family, Make, SystemScalar};
+use crate::stage::Workspace;
+
+/// Arguments and results of one evaluation. Allocated once per plant and scalar.
+#[derive(Clone, Debug)]
+pub struct Evaluation<S> {
+    /// Time, s.
+    pub time: f64,
+    /// [unknowns] `(q, v, s)`.
+    pub y: Vec<S>,
+    /// [unknowns] rates.
+    pub yd: Vec<S>,
+    /// [inputs].
+    pub u: Vec<S>,
+    /// [equations] residual.
+    pub residual: Vec<S>,
+    /// [outputs].
+    pub outputs: Vec<S>,
+    /// Work arrays of the tree.
+    pub tree: Workspace<S>,
+    joint_efforts: Vec<S>,
+}
+
+/// Family of [`Evaluation`]s.
+pub struct Evaluations;
+
+impl Family for Evaluations {
+    type Of<S: SystemScalar> = Evaluation<S>;
+}
+
+impl Make<Evaluations> for System {
+    fn make<S: SystemScalar>(&self) -> Evaluation<S> {
+        let zeros = |n| vec![S::zero(); n];
+        Evaluation {
+            time: 0.0,
+            y: zeros(self.unknowns.len()),
+            yd: zeros(self.unknowns.len()),
+            u: zeros(self.inputs.len()),
+            residual: zeros(self.equations.len()),
+            outputs: zeros(self.outputs.len()),
+            tree: Workspace::new(&self.model),
+            joint_efforts: zeros(self.model.layout.tree_nv),
+        }
+    }
+}
+
+/// Energy account of the whole system at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Account<S> {
+    /// Kinetic energy, J.
+    pub kinetic: S,
+    /// Potential energy of gravity, J.
+    pub gravity: S,
+    /// Sum over the elements.
+    pub elements: Energy<S>,
+}
+
+impl<S: SystemScalar> Evaluation<S> {
+    /// Fills the kinematic stages from y and ẏ.
+    fn stages(&mut self, system: &System) {
+        let (model, w) = (&system.model, &mut self.tree);
+        let (nq, nv) = (model.layout.nq(), model.layout.nv());
+        let (q, rest) = self.y.split_at(nq);
+        model.layout.expand_q(q, &mut w.position.q);
+        model.layout.expand_v(&rest[..nv], &mut w.velocity.v);
+        model.layout.expand_v(&self.yd[nq..nq + nv], &mut w.acceleration.vd);
+        kinematics::position(model, &mut w.position);
+        kinematics::world(model, &w.position, &mut w.world);
+        kinematics::velocity(model, &w.position, &mut w.velocity);
+        kinematics::acceleration(model, &w.position, &w.velocity, &mut w.acceleration);
+    }
+
+    /// Evaluates residual and outputs at `(time, y, yd, u)`. Allocates nothing.
+    pub fn run(&mut self, system: &System) {
+        self.stages(system);
+        self.elements(system);
+        let (model, w) = (&system.model, &mut self.tree);
+        let (nq, nv) = (model.layout.nq(), model.layout.nv());
+        rnea(model, &w.position, &w.velocity, &w.acceleration, &w.applied, &mut w.transmitted, &mut w.tau);
+        for (tau, effort) in w.tau.iter_mut().zip(&self.joint_efforts) {
+            *tau -= *effort;
+        }
+        let (kinematic, rest) = self.residual.split_at_mut(nq);
+        model.layout.reduce(&mut w.tau, &mut rest[..nv]);
+        // q̇ − N(q) v, joint by joint, kept for independent coordinates
+        let mut row = 0;
+        for body in model.bodies.iter().skip(1) {
+            let mut rates = [S::zero(); 7];
+            let (q, v) = (&w.position.q[body.q.clone()], &w.velocity.v[body.v.clone()]);
+            body.joint.rates(q, v, &mut rates[..body.q.len()]);
+            for (k, rate) in body.q.clone().zip(rates) {
+                if model.layout.independent_q.get(row) == Some(&k) {
+                    kinematic[row] = self.yd[row] - rate;
+                    row += 1;
+                }
+            }
+        }
+    }
+
+    /// Applies all elements: wrenches, joint efforts, rows, outputs.
+    fn elements(&mut self, system: &System) {
+        let (model, w) = (&system.model, &mut self.tree);
+        let first = model.layout.nq() + model.layout.nv();
+        w.applied.fill(Default::default());
+        self.joint_efforts.fill(S::zero());
+        for element in &system.elements {
+            let states = first + element.states.start..first + element.states.end;
+            let at = Evaluated {
+                model,
+                time: self.time,
+                position: &w.position,
+                world: &w.world,
+                velocity: &w.velocity,
+                acceleration: &w.acceleration,
+                states: &self.y[states.clone()],
+                state_rates: &self.yd[states.clone()],
+                inputs: &self.u,
+                input_map: &element.inputs,
+            };
+            let mut out = Effort {
+                model,
+                world: &w.world,
+                applied: &mut w.applied,
+                tau: &mut self.joint_efforts,
+                rows: &mut self.residual[states],
+                outputs: &mut self.outputs[element.outputs.clone()],
+            };
+            element.force.apply(&at, &mut out);
+        }
+    }
+
+    /// Energy account at `(time, y, yd, u)`; fills the kinematic stages itself.
+    pub fn account(&mut self, system: &System) -> Account<S> {
+        self.stages(system);
+        let (model, w) = (&system.model, &self.tree);
+        let mut sum = Energy::default();
+        for k in 0..system.elements.len() {
+            let e = self.element_energy(system, k);
+            sum.stored += e.stored;
+            sum.supplied += e.supplied;
+            sum.dissipated += e.dissipated;
+        }
+        Account { kinetic: energy::kinetic(model, &w.velocity), gravity: energy::potential(model, &w.world), elements: sum }
+    }
+
+    /// Energy account of one element; the stages must be filled.
+    fn element_energy(&self, system: &System, k: usize) -> Energy<S> {
+        let (model, w, element) = (&system.model, &self.tree, &system.elements[k]);
+        let first = model.layout.nq() + model.layout.nv();
+        let states = first + element.states.start..first + element.states.end;
+        let at = Evaluated {
+            model,
+            time: self.time,
+            position: &w.position,
+            world: &w.world,
+            velocity: &w.velocity,
+            acceleration: &w.acceleration,
+            states: &self.y[states.clone()],
+            state_rates: &self.yd[states],
+            inputs: &self.u,
+            input_map: &element.inputs,
+        };
+        element.force.energy(&at)
+    }
+
+    /// Power that the elements deliver to the tree at the last evaluated point, W.
+    pub fn delivered_power(&self, system: &System) -> S {
+        let w = &self.tree;
+        let mut power = S::zero();
+        for i in 1..system.model.bodies.len() {
+            power += w.velocity.V_WB[i].dot(w.applied[i]);
+        }
+        for (effort, v) in self.joint_efforts.iter().zip(&w.velocity.v) {
+            power += *effort * *v;
+        }
+        power
+    }
+}

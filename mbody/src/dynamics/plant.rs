@@ -1,0 +1,183 @@
+//! The assembled system in the vocabulary of `problem`: the only file of the engine that implements it.
+
+use super::evaluation::{Evaluation, Evaluations};
+use super::{Account, System};
+use crate::scalar::{Lanes, Make, PerScalar, SystemScalar};
+use problem::{At, Dae, Differentiable, Equation, EvalError, Input, Limit, Limits, Matrix, Outputs, Seeds, Signal, Unknown};
+use std::sync::Arc;
+
+/// An assembled system with work arrays of its own. One per task; the system behind it is shared.
+pub struct TreePlant {
+    system: Arc<System>,
+    evaluations: PerScalar<Evaluations>,
+}
+
+impl TreePlant {
+    /// A plant over a shared system.
+    pub fn new(system: Arc<System>) -> Self {
+        let evaluations = PerScalar::new(system.as_ref());
+        Self { system, evaluations }
+    }
+
+    /// The assembled system.
+    pub fn system(&self) -> &Arc<System> {
+        &self.system
+    }
+
+    /// Another plant over the same system, for another task.
+    pub fn another(&self) -> Self {
+        Self::new(self.system.clone())
+    }
+
+    /// Evaluates at a point and hands out everything that was computed.
+    pub fn evaluate_at(&mut self, at: At<'_>) -> &Evaluation<f64> {
+        let e = f64::pick_mut(&mut self.evaluations);
+        load(e, at);
+        e.run(&self.system);
+        e
+    }
+
+    /// Energy account at a point, J and W.
+    pub fn account_at(&mut self, at: At<'_>) -> Account<f64> {
+        let e = f64::pick_mut(&mut self.evaluations);
+        load(e, at);
+        e.account(&self.system)
+    }
+
+    /// Rate of the total energy (kinetic, gravity, stored) along ẏ, and the power delivered to the tree, W.
+    pub fn energy_rate_at(&mut self, at: At<'_>) -> (f64, Account<f64>) {
+        let e = Lanes::<2>::pick_mut(&mut self.evaluations);
+        load(e, at);
+        for (y, &rate) in e.y.iter_mut().zip(at.yd) {
+            y.set_derivative(0, rate);
+        }
+        let a = e.account(&self.system);
+        let rate = (a.kinetic + a.gravity + a.elements.stored).derivative(0);
+        (rate, self.account_at(at))
+    }
+}
+
+impl Make<Evaluations> for Arc<System> {
+    fn make<S: SystemScalar>(&self) -> Evaluation<S> {
+        self.as_ref().make()
+    }
+}
+
+/// Loads a point without derivatives.
+#[inline]
+fn load<S: SystemScalar>(e: &mut Evaluation<S>, at: At<'_>) {
+    e.time = at.time;
+    for (x, &value) in e.y.iter_mut().zip(at.y) {
+        *x = S::from_f64(value);
+    }
+    for (x, &value) in e.yd.iter_mut().zip(at.yd) {
+        *x = S::from_f64(value);
+    }
+    for (x, &value) in e.u.iter_mut().zip(at.u) {
+        *x = S::from_f64(value);
+    }
+}
+
+/// First row that is not finite.
+fn first_non_finite(residual: &[f64]) -> Result<(), EvalError> {
+    match residual.iter().position(|r| !r.is_finite()) {
+        Some(equation) => Err(EvalError::Recoverable { equation }),
+        None => Ok(()),
+    }
+}
+
+impl Dae for TreePlant {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.system.unknowns
+    }
+    fn equations(&self) -> &[Equation] {
+        &self.system.equations
+    }
+    fn inputs(&self) -> &[Input] {
+        &self.system.inputs
+    }
+    fn residual(&mut self, at: At<'_>, residual: &mut [f64]) -> Result<(), EvalError> {
+        residual.copy_from_slice(&self.evaluate_at(at).residual);
+        first_non_finite(residual)
+    }
+}
+
+impl Outputs for TreePlant {
+    fn outputs(&self) -> &[Signal] {
+        &self.system.outputs
+    }
+    fn evaluate(&mut self, at: At<'_>, residual: &mut [f64], outputs: &mut [f64]) -> Result<(), EvalError> {
+        let e = self.evaluate_at(at);
+        residual.copy_from_slice(&e.residual);
+        outputs.copy_from_slice(&e.outputs);
+        first_non_finite(residual)
+    }
+}
+
+impl Limits for TreePlant {
+    fn limits(&self) -> &[Limit] {
+        &self.system.limits
+    }
+}
+
+/// One sweep over as many directions as S carries; returns how many.
+fn sweep<S: SystemScalar>(
+    plant: &mut TreePlant,
+    at: At<'_>,
+    seeds: &Seeds,
+    first: usize,
+    values: (&mut [f64], &mut [f64]),
+    d: (&mut Matrix, &mut Matrix),
+) -> usize {
+    let count = S::DIRECTIONS.min(seeds.columns() - first);
+    let e = S::pick_mut(&mut plant.evaluations);
+    load(e, at);
+    for k in 0..count {
+        let column = first + k;
+        let parts = [(&mut e.y, &seeds.y), (&mut e.yd, &seeds.yd), (&mut e.u, &seeds.u)];
+        for (values, directions) in parts {
+            for (x, &direction) in values.iter_mut().zip(directions.column(column)) {
+                if direction != 0.0 {
+                    x.set_derivative(k, direction);
+                }
+            }
+        }
+    }
+    e.run(&plant.system);
+    let pairs = [(&e.residual, values.0, d.0), (&e.outputs, values.1, d.1)];
+    for (duals, value, derivative) in pairs {
+        for (row, x) in duals.iter().enumerate() {
+            value[row] = x.value();
+            for k in 0..count {
+                derivative[(row, first + k)] = x.derivative(k);
+            }
+        }
+    }
+    count
+}
+
+impl Differentiable for TreePlant {
+    fn along(
+        &mut self,
+        at: At<'_>,
+        seeds: &Seeds,
+        values: (&mut [f64], &mut [f64]),
+        residual: &mut Matrix,
+        outputs: &mut Matrix,
+    ) -> Result<(), EvalError> {
+        let mut first = 0;
+        while first < seeds.columns() {
+            let (v, d) = ((&mut *values.0, &mut *values.1), (&mut *residual, &mut *outputs));
+            first += match seeds.columns() - first {
+                0..=8 => sweep::<Lanes<2>>(self, at, seeds, first, v, d),
+                9..=16 => sweep::<Lanes<4>>(self, at, seeds, first, v, d),
+                _ => sweep::<Lanes<6>>(self, at, seeds, first, v, d),
+            };
+        }
+        first_non_finite(values.0)?;
+        first_non_finite(residual.as_slice()).map_err(|e| match e {
+            EvalError::Recoverable { equation } => EvalError::Recoverable { equation: equation % residual.rows() },
+            fatal @ EvalError::Fatal { .. } => fatal,
+        })
+    }
+}

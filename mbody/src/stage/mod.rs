@@ -1,0 +1,112 @@
+//! Stages of an evaluation are separate results: a function that needs velocities takes them.
+//!
+//! All arrays are indexed by body (0 = world); twists and accelerations are written in body axes about the body origin.
+
+use crate::model::Model;
+use crate::scalar::{Family, Make, Real, SystemScalar};
+use crate::spatial::{ArticulatedInertia, Inertia, Pose, Twist, Wrench};
+
+/// What follows from the coordinates.
+#[derive(Clone, Debug)]
+pub struct Position<S> {
+    /// [tree nq] tree coordinates.
+    pub q: Vec<S>,
+    /// [bodies] pose of each body in its parent.
+    pub X_PB: Vec<Pose<S>>,
+    /// [tree nv] motion subspace of each joint: columns, in body axes.
+    pub H: Vec<Twist<S>>,
+}
+
+/// Poses of all bodies in the world; needed by everything outside the tree recursion.
+#[derive(Clone, Debug)]
+pub struct World<S> {
+    /// [bodies] pose of each body in the world.
+    pub X_WB: Vec<Pose<S>>,
+}
+
+/// What follows from coordinates and velocities.
+#[derive(Clone, Debug)]
+pub struct Velocity<S> {
+    /// [tree nv] tree velocities.
+    pub v: Vec<S>,
+    /// [bodies] twist of each body in the world.
+    pub V_WB: Vec<Twist<S>>,
+    /// [bodies] velocity-dependent part of each joint's acceleration: `Ḣ v + V × H v`.
+    pub bias: Vec<Twist<S>>,
+}
+
+/// What follows from coordinates, velocities and accelerations.
+#[derive(Clone, Debug)]
+pub struct Acceleration<S> {
+    /// [tree nv] tree accelerations.
+    pub vd: Vec<S>,
+    /// [bodies] spatial acceleration of each body relative to free fall (the world accelerates with −g).
+    pub A_WB: Vec<Twist<S>>,
+}
+
+/// Work arrays of the tree algorithms. Allocated once; evaluation allocates nothing.
+#[derive(Clone, Debug)]
+pub struct Workspace<S> {
+    /// Stage 1.
+    pub position: Position<S>,
+    /// Stage 1, in the world.
+    pub world: World<S>,
+    /// Stage 2.
+    pub velocity: Velocity<S>,
+    /// Stage 3.
+    pub acceleration: Acceleration<S>,
+    /// [bodies] applied wrench on each body, in body axes about the body origin.
+    pub applied: Vec<Wrench<S>>,
+    /// [bodies] wrench transmitted by each joint onto its body, in body axes about the body origin.
+    pub transmitted: Vec<Wrench<S>>,
+    /// [tree nv] generalized forces.
+    pub tau: Vec<S>,
+    /// [bodies] composite inertias.
+    pub composite: Vec<Inertia<S>>,
+    /// [bodies] articulated inertias.
+    pub articulated: Vec<ArticulatedInertia<S>>,
+    /// [bodies] bias wrenches of the articulated bodies.
+    pub articulated_bias: Vec<Wrench<S>>,
+    /// [tree nv] `U = Iᴬ H`.
+    pub U: Vec<Wrench<S>>,
+    /// [tree nv] `u = τ − Hᵀ pᴬ`.
+    pub u: Vec<S>,
+    /// [bodies] Cholesky factors of `D = Hᵀ U`, packed 6 × 6.
+    pub D: Vec<[[S; 6]; 6]>,
+}
+
+impl<S: Real> Workspace<S> {
+    /// Work arrays for a model.
+    pub fn new(model: &Model) -> Self {
+        let n = model.bodies.len();
+        let (nq, nv) = (model.layout.tree_nq, model.layout.tree_nv);
+        Self {
+            position: Position { q: vec![S::zero(); nq], X_PB: vec![Pose::identity(); n], H: vec![Twist::zero(); nv] },
+            world: World { X_WB: vec![Pose::identity(); n] },
+            velocity: Velocity { v: vec![S::zero(); nv], V_WB: vec![Twist::zero(); n], bias: vec![Twist::zero(); n] },
+            acceleration: Acceleration { vd: vec![S::zero(); nv], A_WB: vec![Twist::zero(); n] },
+            applied: vec![Wrench::zero(); n],
+            transmitted: vec![Wrench::zero(); n],
+            tau: vec![S::zero(); nv],
+            composite: vec![Inertia::from_f64(&Inertia::default()); n],
+            articulated: vec![ArticulatedInertia::default(); n],
+            articulated_bias: vec![Wrench::zero(); n],
+            U: vec![Wrench::zero(); nv],
+            u: vec![S::zero(); nv],
+            D: vec![[[S::zero(); 6]; 6]; n],
+        }
+    }
+}
+
+/// One workspace for each scalar of the assembled system.
+pub struct Workspaces;
+
+impl Family for Workspaces {
+    type Of<S: SystemScalar> = Workspace<S>;
+}
+
+impl Make<Workspaces> for Model {
+    fn make<S: SystemScalar>(&self) -> Workspace<S> {
+        Workspace::new(self)
+    }
+}
