@@ -6,12 +6,14 @@
 pub mod arguments;
 pub mod backend;
 pub mod commands;
+pub mod keep;
 pub mod library;
 pub mod model;
 pub mod output;
 pub mod plan;
 pub mod plot;
 pub mod report;
+pub mod steady;
 
 use mbody::assembly::Kinds;
 use output::Palette;

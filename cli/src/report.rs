@@ -11,8 +11,8 @@ pub fn findings(findings: &Findings, palette: Palette) -> String {
     for finding in findings.iter().filter(|f| !worse || f.severity != Severity::Note) {
         let written = finding.render(&mut |part, words| {
             let style = match part {
-                Part::Severity(Severity::Error) => palette.error,
-                Part::Severity(_) => palette.warning,
+                Part::Severity(Severity::Error) => palette.bad,
+                Part::Severity(_) => palette.caution,
                 _ => anstyle::Style::new(),
             };
             write!(text, "{style}{words}{style:#}")

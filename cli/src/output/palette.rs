@@ -41,6 +41,11 @@ impl Palette {
         Self::choose(std::io::stdout().is_terminal(), std::env::var_os("NO_COLOR").as_deref())
     }
 
+    /// The palette for standard error, by the same rule.
+    pub fn for_stderr() -> Self {
+        Self::choose(std::io::stderr().is_terminal(), std::env::var_os("NO_COLOR").as_deref())
+    }
+
     fn choose(terminal: bool, no_color: Option<&OsStr>) -> Self {
         if terminal && no_color.is_none_or(OsStr::is_empty) { Self::colored() } else { Self::plain() }
     }

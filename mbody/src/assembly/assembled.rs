@@ -2,7 +2,6 @@
 
 use super::description::{BaseDescription, Description, schema};
 use super::{Kinds, Site, tree};
-use crate::algorithm::kinematics;
 use crate::description::Library;
 use crate::description::document::Document;
 use crate::description::finding::{Finding, Findings, suggestion};
@@ -11,10 +10,8 @@ use crate::description::schema::validate;
 use crate::description::urdf::{self, Robot};
 use crate::dynamics::System;
 use crate::force::Force;
-use crate::model::Model;
-use crate::scalar::Real;
 use crate::spatial::Vec3;
-use crate::stage::{Workspace, World};
+use crate::stage::Workspace;
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -180,7 +177,8 @@ fn join(
     findings.extend(of_tree.iter().map(|f| document.located(f.clone())));
     let model = model?;
     let locked: Vec<String> = description.joints.iter().filter(|(_, o)| o.locked).map(|(name, _)| name.clone()).collect();
-    let design = design_pose(&model);
+    let mut design = Workspace::new(&model);
+    design.to_design(&model);
     let (mut forces, mut left_out, mut named) = (Vec::new(), Vec::new(), Vec::new());
     let mut of_elements = Findings::new();
     for (name, value) in &description.elements {
@@ -191,7 +189,7 @@ fn join(
             element: name,
             path,
             model: &model,
-            design: &design,
+            design: &design.world,
             locked: &locked,
             library,
             findings: &mut of_elements,
@@ -226,17 +224,4 @@ fn join(
             None
         }
     }
-}
-
-/// Poses of all bodies with every joint at its reference.
-fn design_pose(model: &Model) -> World<f64> {
-    let mut w = Workspace::<f64>::new(model);
-    for body in model.bodies().iter().skip(1) {
-        for (q, &reference) in w.position.q[body.q.clone()].iter_mut().zip(body.joint.reference()) {
-            *q = f64::from_f64(reference);
-        }
-    }
-    kinematics::position(model, &mut w.position);
-    kinematics::world(model, &w.position, &mut w.world);
-    w.world
 }

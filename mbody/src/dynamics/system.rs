@@ -254,6 +254,14 @@ impl System {
         &self.inputs
     }
 
+    /// Height of every body's origin in the design pose, by the name of its joint, m.
+    pub fn design_heights(&self) -> Vec<(&str, f64)> {
+        let mut w = crate::stage::Workspace::<f64>::new(&self.model);
+        w.to_design(&self.model);
+        let height = |i: usize| w.world.X_WB[i].p.z;
+        self.model.bodies.iter().enumerate().skip(1).map(|(i, b)| (b.joint_name.as_str(), height(i))).collect()
+    }
+
     /// The unknowns.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns
