@@ -3,10 +3,10 @@
 //! Nothing here opens a path: text is handed down by a [`Library`]. Whatever is wrong is reported as [`Findings`], several at
 //! once, each with file, line and path; see [`finding`].
 
-//DOC
+pub mod document;
 pub mod finding;
 pub mod quantity;
-//SCH
+pub mod schema;
 pub mod urdf;
 
 use std::borrow::Cow;
