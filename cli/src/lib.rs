@@ -1,1 +1,4 @@
 //! Command line for motorcycle handling and stability.
+
+pub mod output;
+pub mod plot;

@@ -9,6 +9,7 @@
 #![allow(non_snake_case)]
 
 pub mod algorithm;
+pub mod assembly;
 pub mod contact;
 pub mod description;
 pub mod dynamics;

@@ -1,1 +1,5 @@
 //! Tires, suspensions, drivetrain, brakes, aerodynamics, riders: force elements for mbody.
+#![forbid(unsafe_code)]
+#![allow(non_snake_case)]
+
+pub mod tire;

@@ -7,7 +7,7 @@
 pub mod finding;
 pub mod quantity;
 //SCH
-//URDF
+pub mod urdf;
 
 use std::borrow::Cow;
 

@@ -113,8 +113,7 @@ impl System {
         let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         let (mut kinematic, mut dynamic) = (Vec::new(), Vec::new());
         for (i, body) in self.model.bodies.iter().enumerate().skip(1) {
-            // the base of a vehicle speaks in the name of the body, other joints in their own
-            let owner = if body.joint_name.is_empty() { &body.name } else { &body.joint_name };
+            let owner = &body.joint_name;
             let spins = spinning(i);
             for (k, c) in body.q.clone().zip(body.joint.coordinates()) {
                 if layout.independent_q.contains(&k) {

@@ -1,0 +1,128 @@
+//! Where an element is built: names become bodies here, and findings get their place in the file.
+
+use crate::description::Library;
+use crate::description::finding::{Finding, Findings, suggestion};
+use crate::description::quantity::{Quantity, dimension::Length};
+use crate::model::{BodyIndex, Model};
+use crate::spatial::{Pose, Vec3};
+use crate::stage::World;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A point of a link, in the link's frame.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PointDescription {
+    /// Name of the link (`world` is allowed).
+    pub link: String,
+    /// Coordinates in the frame of the link: x forward, y left, z up in the design pose.
+    pub at: [Quantity<Length>; 3],
+}
+
+/// What an element may ask while it is assembled.
+pub struct Site<'a> {
+    pub(super) element: &'a str,
+    pub(super) path: String,
+    pub(super) model: &'a Model,
+    pub(super) design: &'a World<f64>,
+    pub(super) locked: &'a [String],
+    pub(super) library: &'a dyn Library,
+    pub(super) findings: &'a mut Findings,
+    pub(super) left_out: Option<String>,
+}
+
+impl<'a> Site<'a> {
+    /// Name the user gave to the element.
+    pub fn element(&self) -> &str {
+        self.element
+    }
+
+    /// The tree.
+    pub fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// Adds a finding at a key of this element (`""` for the element itself).
+    pub fn find(&mut self, key: &str, finding: Finding) {
+        let path = if key.is_empty() { self.path.clone() } else { format!("{}.{key}", self.path) };
+        self.findings.push(finding.at_path(path));
+    }
+
+    /// Adds an error at a key of this element.
+    pub fn refuse(&mut self, key: &str, code: &'static str, message: impl Into<String>) {
+        self.find(key, Finding::error(code, message));
+    }
+
+    /// The body carried by a joint.
+    pub fn joint(&mut self, key: &str, name: &str) -> Option<BodyIndex> {
+        if self.locked.iter().any(|l| l == name) {
+            self.left_out = Some(name.to_owned());
+            return None;
+        }
+        if let Some(body) = self.model.joint(name) {
+            return Some(body);
+        }
+        let known = self.model.moving().map(|b| self.model.body(b).joint_name.as_str());
+        let hint = suggestion(name, known.chain(self.locked.iter().map(String::as_str)));
+        self.find(key, Finding::error("unknown_joint", format!("joint `{name}` does not exist")).with_hint_from(hint));
+        None
+    }
+
+    /// The body carried by a joint with one coordinate, whose unit must be `unit` (`m` or `rad`).
+    pub fn joint_with(&mut self, key: &str, name: &str, unit: &str) -> Option<BodyIndex> {
+        let body = self.joint(key, name)?;
+        let coordinates = self.model.body(body).joint.coordinates();
+        match coordinates {
+            [only] if only.unit == unit => Some(body),
+            [only] => {
+                let (is, needs) = (motion_word(only.unit), motion_word(unit));
+                self.refuse(key, "wrong_joint", format!("joint `{name}` {is}, but this element needs a joint that {needs}"));
+                None
+            }
+            _ => {
+                let count = coordinates.len();
+                self.refuse(key, "wrong_joint", format!("joint `{name}` has {count} coordinates, but this element needs a joint with one"));
+                None
+            }
+        }
+    }
+
+    /// The body a link belongs to, and the pose of the link in that body.
+    pub fn link(&mut self, key: &str, name: &str) -> Option<(BodyIndex, Pose<f64>)> {
+        if let Some(frame) = self.model.frame(name) {
+            return Some((frame.body, frame.X_BF));
+        }
+        let hint = suggestion(name, self.model.frames().iter().map(|f| f.name.as_str()));
+        self.find(key, Finding::error("unknown_link", format!("link `{name}` does not exist")).with_hint_from(hint));
+        None
+    }
+
+    /// The body a point belongs to, and its position in that body.
+    pub fn point(&mut self, key: &str, point: &PointDescription) -> Option<(BodyIndex, Vec3<f64>)> {
+        let (body, X) = self.link(&format!("{key}.link"), &point.link)?;
+        Some((body, X.point(point.at.map(Quantity::si).into())))
+    }
+
+    /// Where a point of a body is in the design pose, in the world.
+    pub fn design_position(&self, body: BodyIndex, point: Vec3<f64>) -> Vec3<f64> {
+        self.design.X_WB[body.get()].point(point)
+    }
+
+    /// Pose of a body in the design pose.
+    pub fn design_pose(&self, body: BodyIndex) -> Pose<f64> {
+        self.design.X_WB[body.get()]
+    }
+
+    /// Text that the description refers to: a table, a tire data file.
+    pub fn text(&mut self, key: &str, name: &str) -> Option<String> {
+        let found = self.library.text(name).map(|t| t.into_owned());
+        if found.is_none() {
+            self.refuse(key, "missing_file", format!("file `{name}` was not found"));
+        }
+        found
+    }
+}
+
+fn motion_word(unit: &str) -> &'static str {
+    if unit == "m" { "slides" } else { "turns" }
+}

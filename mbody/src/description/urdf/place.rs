@@ -1,0 +1,104 @@
+//! Where entries stand in the text.
+
+use crate::description::finding::{Finding, Findings};
+use roxmltree::{Attribute, Document, Node, ParsingOptions};
+use std::collections::HashMap;
+
+/// Deepest nesting of elements; URDF needs six levels, readers call themselves once per level.
+const DEEPEST: usize = 64;
+
+/// Lines and columns of entries, by path.
+#[derive(Debug)]
+pub(super) struct Places {
+    file: String,
+    text: String,
+    at: HashMap<String, (usize, usize)>,
+}
+
+impl Places {
+    pub fn new(file: &str, text: &str) -> Self {
+        Self { file: file.to_string(), text: text.to_string(), at: HashMap::new() }
+    }
+
+    /// Remembers where an entry stands; the first of several of the same path counts.
+    pub fn insert(&mut self, path: String, at: (usize, usize)) {
+        self.at.entry(path).or_insert(at);
+    }
+
+    /// A finding at a known place.
+    pub fn at(&self, finding: Finding, (line, column): (usize, usize)) -> Finding {
+        finding.in_file(&self.file).at_line(&self.text, line, column)
+    }
+
+    /// A finding at the place of its path, or of the nearest enclosing entry.
+    pub fn located(&self, finding: Finding) -> Finding {
+        let mut path = finding.path.as_str();
+        loop {
+            if let Some(place) = self.at.get(path) {
+                return self.at(finding.clone(), *place);
+            }
+            match path.rfind('.') {
+                Some(end) => path = &path[..end],
+                None => return finding.in_file(&self.file),
+            }
+        }
+    }
+}
+
+/// Line and column of an element.
+pub(super) fn of_node(node: Node) -> (usize, usize) {
+    position(node.document(), node.range().start)
+}
+
+/// Line and column of an attribute.
+pub(super) fn of_attribute(node: Node, attribute: Attribute) -> (usize, usize) {
+    position(node.document(), attribute.range().start)
+}
+
+fn position(document: &Document, offset: usize) -> (usize, usize) {
+    let at = document.text_pos_at(offset);
+    (at.row as usize, at.col as usize)
+}
+
+/// Reads XML whose outermost element is `<robot>`.
+pub(super) fn parse<'a>(file: &str, text: &'a str) -> Result<Document<'a>, Findings> {
+    // far below what exhausts memory, far above any machine
+    let options = ParsingOptions { nodes_limit: 2_000_000, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|e| {
+        let at = e.pos();
+        let message = format!("this is not XML: {}", without_position(&e.to_string()));
+        let finding = Finding::error("not_xml", message).in_file(file).at_line(text, at.row as usize, at.col as usize);
+        let xacro = text.contains("xacro:");
+        Findings::from(if xacro { finding.with_hint("this looks like xacro; expand it to plain URDF first") } else { finding })
+    })?;
+    let root = document.root_element();
+    let (line, column) = of_node(root);
+    let refuse = |code, message: String| Err(Finding::error(code, message).in_file(file).at_line(text, line, column).into());
+    if root.tag_name().name() != "robot" {
+        return refuse("not_urdf", format!("the outermost element is `<{}>`, expected `<robot>`", root.tag_name().name()));
+    }
+    if root.descendants().any(|node| node.is_element() && node.ancestors().nth(DEEPEST).is_some()) {
+        return refuse("not_urdf", format!("elements are nested more than {DEEPEST} levels deep"));
+    }
+    Ok(document)
+}
+
+/// The message of the XML reader says `… at 3:14`; the finding has that already.
+fn without_position(message: &str) -> String {
+    let plain = message.rfind(" at ").filter(|k| message[k + 4..].chars().all(|c| c.is_ascii_digit() || c == ':'));
+    message[..plain.unwrap_or(message.len())].to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_without_a_place_of_their_own_take_that_of_the_enclosing_one() {
+        let mut places = Places::new("f.urdf", "one\ntwo\n");
+        places.insert("link.a".to_string(), (2, 1));
+        let found = places.located(Finding::error("x", "y").at_path("link.a.mass"));
+        assert_eq!(found.place(), "f.urdf:2:1 (link.a.mass)");
+        assert_eq!(places.located(Finding::error("x", "y").at_path("joint.b")).place(), "f.urdf (joint.b)");
+    }
+}

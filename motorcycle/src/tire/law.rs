@@ -1,0 +1,113 @@
+//! What a friction law is, and how one of any kind is stored.
+//!
+//! A law is written once, generic over the scalar; [`AnyTireLaw`] keeps it behind a pointer for every scalar of the
+//! assembled system, so that derivatives come out exact.
+
+use mbody::scalar::{Family, Make, PerScalar, SystemScalar};
+use std::sync::Arc;
+
+/// What a law is asked: load, slips, camber and speed at the contact point.
+#[derive(Clone, Copy, Debug)]
+pub struct Slip<S> {
+    /// Normal load N, N.
+    pub load: S,
+    /// Lateral slip `a = −V_sy/V*`, the tangent of the slip angle, positive when the tire slides to the right.
+    pub lateral: S,
+    /// Longitudinal slip `κ = −V_sx/V*`; driving positive, locked wheel −1.
+    pub longitudinal: S,
+    /// Camber γ, rad, positive leaning right.
+    pub camber: S,
+    /// Reference speed V*, m/s, positive.
+    pub speed: S,
+}
+
+/// What a law answers: forces and moments of the road on the tire at the contact point.
+#[derive(Clone, Copy, Debug)]
+pub struct Friction<S> {
+    /// Force forward, N.
+    pub longitudinal: S,
+    /// Force to the left, N.
+    pub lateral: S,
+    /// Moment about the forward axis, N m, beyond what the shape of the cross-section produces by itself.
+    pub overturning_moment: S,
+    /// Moment about the normal of the road, upward, N m.
+    pub aligning_moment: S,
+    /// Share of the available friction in use: 0 free, about 1 at the peak of the force; 0 for laws without a limit.
+    pub utilization: S,
+}
+
+/// A friction law: steady forces of a rolling tire.
+///
+/// Conditions every law keeps, checked by the tests of each: finite at zero load, smooth at zero slip, and with derivatives
+/// that agree with differences of its values.
+pub trait TireLaw: Send + Sync + 'static {
+    /// Forces and moments at a slip, in ISO axes.
+    fn friction<S: SystemScalar>(&self, slip: &Slip<S>) -> Friction<S>;
+
+    /// Cornering stiffness at a load and a camber, N per unit of lateral slip: what relaxation lengths are built from.
+    ///
+    /// It is the slope dFy/da at zero slip of the upright tire, with the parameters of that camber. In laws whose side force
+    /// saturates with slip and camber together, the slope of the leaning tire itself is smaller.
+    fn cornering_stiffness<S: SystemScalar>(&self, load: S, camber: S) -> S;
+}
+
+/// A law for one scalar: object-safe, implemented for every [`TireLaw`].
+trait LawFor<S>: Send + Sync {
+    fn friction_at(&self, slip: &Slip<S>) -> Friction<S>;
+    fn cornering_stiffness_at(&self, load: S, camber: S) -> S;
+}
+
+impl<S: SystemScalar, L: TireLaw> LawFor<S> for L {
+    fn friction_at(&self, slip: &Slip<S>) -> Friction<S> {
+        self.friction(slip)
+    }
+
+    fn cornering_stiffness_at(&self, load: S, camber: S) -> S {
+        self.cornering_stiffness(load, camber)
+    }
+}
+
+/// The pointers to a law, scalar by scalar.
+enum LawFamily {}
+
+impl Family for LawFamily {
+    type Of<S: SystemScalar> = Arc<dyn LawFor<S>>;
+}
+
+/// Hands the same law to every scalar.
+struct Shared<L>(Arc<L>);
+
+impl<L: TireLaw> Make<LawFamily> for Shared<L> {
+    fn make<S: SystemScalar>(&self) -> Arc<dyn LawFor<S>> {
+        self.0.clone()
+    }
+}
+
+/// A law of any kind; cheap to clone.
+#[derive(Clone)]
+pub struct AnyTireLaw(Arc<PerScalar<LawFamily>>);
+
+impl AnyTireLaw {
+    /// Stores a law.
+    pub fn new(law: impl TireLaw) -> Self {
+        Self(Arc::new(PerScalar::new(&Shared(Arc::new(law)))))
+    }
+}
+
+impl std::fmt::Debug for AnyTireLaw {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("AnyTireLaw")
+    }
+}
+
+impl TireLaw for AnyTireLaw {
+    #[inline]
+    fn friction<S: SystemScalar>(&self, slip: &Slip<S>) -> Friction<S> {
+        S::pick(&self.0).friction_at(slip)
+    }
+
+    #[inline]
+    fn cornering_stiffness<S: SystemScalar>(&self, load: S, camber: S) -> S {
+        S::pick(&self.0).cornering_stiffness_at(load, camber)
+    }
+}
