@@ -45,7 +45,7 @@ find_libclang() {
     for file in "$place" "$place"/libclang.so "$place"/libclang.so.* "$place"/libclang-[0-9]*.so* "$place"/libclang.dylib; do
       case "$file" in
       *.so | *.so.* | *.dylib) if [ -f "$file" ]; then
-        readlink -f "$file"
+        echo "$file"
         return 0
       fi ;;
       esac
@@ -56,7 +56,7 @@ find_libclang() {
 
 # Whether libclang's own headers (stddef.h, ...) lie beside it; its runtime package comes without them.
 headers_found() {
-  for header in "$(dirname "$1")"/clang/*/include/stddef.h; do
+  for header in "$(dirname "$1")"/clang/*/include/stddef.h "$(dirname "$(readlink -f "$1")")"/clang/*/include/stddef.h; do
     [ -f "$header" ] && return 0
   done
   return 1
@@ -108,6 +108,7 @@ install_wheels() {
     say "pip did not help (see .tools/pip.log)"
     return 1
   }
+  rm -rf .tools/venv
   ln -sfn wheels/cmake/data/bin/cmake .tools/cmake
   ln -sfn wheels/clang/native/libclang.so .tools/libclang.so
   {

@@ -125,20 +125,24 @@ fn american(word: &str) -> Option<String> {
     beginning.or_else(whole).or_else(ending)
 }
 
-/// Comments without “quoted” and *slanted* titles; the rest of the file as it is.
+/// A Rust file without what its comments quote; its code as it is.
 fn without_titles_in_comments(text: &str) -> String {
-    let line = |line: &str| match line.trim_start().starts_with("//") {
-        true => blank(&blank(&blank(line, '“', '”'), '"', '"'), '*', '*'),
-        false => line.to_string(),
-    };
-    text.lines().map(line).collect::<Vec<_>>().join("\n")
+    let lines: Vec<&str> = text.lines().collect();
+    let comment = |line: &str| line.trim_start().starts_with("//");
+    // a title may run over several lines of one comment
+    let runs = lines.chunk_by(|a, b| comment(a) == comment(b));
+    runs.map(|run| if comment(run[0]) { without_marked(&run.join("\n")) } else { run.join("\n") }).collect::<Vec<_>>().join("\n")
 }
 
-/// The text without what stands in quotation marks or is set slanted, also across lines.
+/// A text without what it quotes, line by line with `>` or paragraph by paragraph in marks.
 fn without_quotations(text: &str) -> String {
     let text = text.lines().map(|line| if line.trim_start().starts_with('>') { "" } else { line }).collect::<Vec<_>>().join("\n");
-    let paragraph = |text: &str| blank(&blank(&blank(text, '“', '”'), '"', '"'), '*', '*');
-    text.split("\n\n").map(paragraph).collect::<Vec<_>>().join("\n\n")
+    text.split("\n\n").map(without_marked).collect::<Vec<_>>().join("\n\n")
+}
+
+/// A paragraph without what stands in “quotation marks” or is set *slanted*.
+fn without_marked(paragraph: &str) -> String {
+    blank(&blank(&blank(paragraph, '“', '”'), '"', '"'), '*', '*')
 }
 
 /// Replaces what stands between the marks by blanks; an opening mark without its closing one is left alone.
@@ -165,5 +169,6 @@ fn british_words_are_found_and_titles_are_not() {
     let file = |path: &str, text: &str| File { path: path.into(), text: text.into() };
     let title = file("a.md", "See \"The modelling\nof tyres\", *Vehicle Behaviour*.\nIts colour\n");
     assert_eq!(violations(&title), ["a.md:3: `colour`, American `color`"]);
-    assert_eq!(violations(&file("a.rs", "// “Tyre modelling”\nlet s = \"tyre\";")), ["a.rs:2: `tyre`, American `tire`"]);
+    let code = file("a.rs", "// “Tyre\n// modelling”\nlet s = \"tyre\";");
+    assert_eq!(violations(&code), ["a.rs:3: `tyre`, American `tire`"]);
 }

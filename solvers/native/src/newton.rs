@@ -114,9 +114,6 @@ impl Work {
             if residual <= options.residual_tolerance {
                 return (AlgebraicEnding::Converged, residual);
             }
-            if tally.iterations == options.max_iterations {
-                return (AlgebraicEnding::MaxIterations, residual);
-            }
             tally.iterations += 1;
             let (rows, columns) = (problem.equation_scale(), problem.unknown_scale());
             if self.elimination.solve(&self.jacobian, &self.f, rows, columns, &mut self.step).is_err() {
@@ -134,6 +131,9 @@ impl Work {
             }
             if moved <= options.step_tolerance {
                 return (AlgebraicEnding::Stalled, residual);
+            }
+            if tally.iterations >= options.max_iterations {
+                return (AlgebraicEnding::MaxIterations, residual);
             }
         }
     }

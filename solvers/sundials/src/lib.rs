@@ -1,6 +1,6 @@
 //! KINSOL behind the vocabulary of `problem`.
 //!
-//! The C bindings are touched in [`raw`] only, which is also the only module of the workspace with `unsafe`
+//! The C bindings are touched in the module `raw` only, which is also the only module of the workspace with `unsafe`
 //! code. What it hands out is safe: contexts, vectors, matrices and solvers free themselves, a panic inside a callback
 //! reaches the caller as a panic, and nothing is ever printed.
 
