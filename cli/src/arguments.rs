@@ -58,10 +58,12 @@ fn axes(text: &str) -> Result<Axes, String> {
 /// Names the part that cannot be read, the unit that does not fit, or a step that leads nowhere.
 pub fn sweep<D: Dimensioned>(option: &str, text: &str) -> Result<Vec<f64>, Failure> {
     let wrong = |why: String| Failure::Argument(format!("--{option} {text}: {why}"));
-    let one = |part: &str| parse_quantity(part.trim(), D::DIMENSION).map_err(|e| {
-        let hint = e.hint().map(|h| format!(" ({h})")).unwrap_or_default();
-        wrong(format!("{e}{hint}"))
-    });
+    let one = |part: &str| {
+        parse_quantity(part.trim(), D::DIMENSION).map_err(|e| {
+            let hint = e.hint().map(|h| format!(" ({h})")).unwrap_or_default();
+            wrong(format!("{e}{hint}"))
+        })
+    };
     if text.contains(',') {
         return text.split(',').map(one).collect();
     }

@@ -20,7 +20,11 @@ pub const ALGEBRAIC: &[AlgebraicBackend] = &[
         about: "SUNDIALS KINSOL: Newton with line search",
         make: || Box::new(sundials::Kinsol::new(sundials::Strategy::LineSearch)),
     },
-    AlgebraicBackend { name: "newton", about: "damped Newton of this project, without calls to C", make: || Box::new(native::Newton::new()) },
+    AlgebraicBackend {
+        name: "newton",
+        about: "damped Newton of this project, without calls to C",
+        make: || Box::new(native::Newton::new()),
+    },
 ];
 
 /// The backend with this name.

@@ -43,7 +43,10 @@ fn inputs(report: &OwnedReport, model: &ModelArguments) -> serde_json::Value {
         let mut names = vec![source.file.clone()];
         let text = source.text(&source.file).unwrap_or_default().into_owned();
         names.extend(text.lines().filter_map(|l| l.strip_prefix("urdf:")).map(|u| u.trim().to_owned()));
-        names.into_iter().map(|name| json!({ "file": name, "fnv1a": hash(source.text(&name).unwrap_or_default().as_bytes()) })).collect::<Vec<_>>()
+        names
+            .into_iter()
+            .map(|name| json!({ "file": name, "fnv1a": hash(source.text(&name).unwrap_or_default().as_bytes()) }))
+            .collect::<Vec<_>>()
     });
     let iterations: usize = report.points.iter().map(|p| p.iterations).sum();
     json!({

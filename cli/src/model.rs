@@ -29,11 +29,22 @@ pub fn overrides(settings: &[String]) -> Result<Vec<Override>, Failure> {
 
 /// Reads and assembles; nothing is thrown away: the findings come with the system or instead of it.
 pub fn read(model: &str, set: &[String], context: &Context) -> Result<(Option<Assembled>, Findings, Source), Failure> {
+    read_on(model, set, context, BaseDescription::Fixed, 9.81)
+}
+
+/// As [`read`], with the base and the gravity (m/s²) of a plain URDF.
+fn read_on(
+    model: &str,
+    set: &[String],
+    context: &Context,
+    base: BaseDescription,
+    gravity: f64,
+) -> Result<(Option<Assembled>, Findings, Source), Failure> {
     let source = Source::find(model)?;
     let overrides = overrides(set)?;
     let (assembled, findings) = if source.is_urdf() {
         match source.text(&source.file) {
-            Some(text) => assemble_urdf(&source.file, &text, BaseDescription::Fixed, 9.81, &overrides),
+            Some(text) => assemble_urdf(&source.file, &text, base, gravity, &overrides),
             None => (None, Finding::error("missing_file", format!("file `{}` cannot be read as text", source.file)).into()),
         }
     } else {
@@ -44,7 +55,12 @@ pub fn read(model: &str, set: &[String], context: &Context) -> Result<(Option<As
 
 /// Reads and assembles, or fails with everything that is wrong.
 pub fn load(arguments: &ModelArguments, context: &Context) -> Result<Loaded, Failure> {
-    let (assembled, findings, source) = read(&arguments.model, &arguments.set, context)?;
+    load_on(arguments, context, BaseDescription::Fixed, 9.81)
+}
+
+/// As [`load`], with the base and the gravity (m/s²) of a plain URDF.
+pub fn load_on(arguments: &ModelArguments, context: &Context, base: BaseDescription, gravity: f64) -> Result<Loaded, Failure> {
+    let (assembled, findings, source) = read_on(&arguments.model, &arguments.set, context, base, gravity)?;
     match assembled {
         Some(assembled) => Ok(Loaded { name: source.name, assembled, findings }),
         None => Err(Failure::Findings(findings)),

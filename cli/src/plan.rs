@@ -134,7 +134,9 @@ impl TrimArguments {
         if let Some(s) = &speed
             && let Some(slow) = s.values.iter().find(|&&v| v <= 0.0)
         {
-            return Err(Failure::Argument(format!("--speed {slow}: a steady state needs a speed above zero; leave it out for the static pose")));
+            return Err(Failure::Argument(format!(
+                "--speed {slow}: a steady state needs a speed above zero; leave it out for the static pose"
+            )));
         }
         if speed.is_none() && !self.top_speed && (turn.is_some() || self.acceleration.is_some()) {
             return Err(Failure::Argument("a turn or an acceleration needs --speed as well".to_owned()));
@@ -294,7 +296,9 @@ impl Request {
             false => ("rear_brake.torque", "front_brake.torque", p / (1.0 - p)),
         };
         if trim.role(lead).is_none() || trim.role(other).is_none() {
-            return Err(Failure::Argument("this model has no inputs `front_brake.torque` and `rear_brake.torque` to brake with".to_owned()));
+            return Err(Failure::Argument(
+                "this model has no inputs `front_brake.torque` and `rear_brake.torque` to brake with".to_owned(),
+            ));
         }
         trim.free(lead, 0.0)?;
         Ok(trim.tie(other, &format!("{ratio} * {lead}"))?)

@@ -78,7 +78,10 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
     }
     let mut warnings = Vec::new();
     if request.acceleration.is_some() && request.turn.is_some() {
-        warnings.push("quasi-steady: shape, slips and curvature are held while the speed changes; the drift of the lean with speed is ignored".to_owned());
+        warnings.push(
+            "quasi-steady: shape, slips and curvature are held while the speed changes; the drift of the lean with speed is ignored"
+                .to_owned(),
+        );
     }
     Ok(Steady { given, signals: signals(&plant), points, warnings })
 }
@@ -111,7 +114,8 @@ fn point(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend, go
             }
         }
     };
-    let to_point = |p: TrimPoint| Point { given: given.clone(), values: values(&p), ending: p.ending, iterations: p.iterations, residual: p.residual };
+    let to_point =
+        |p: TrimPoint| Point { given: given.clone(), values: values(&p), ending: p.ending, iterations: p.iterations, residual: p.residual };
     Ok(found.into_iter().map(to_point).collect())
 }
 
@@ -178,7 +182,13 @@ fn walk(plant: &mut TreePlant, plan: &Plan, backend: &AlgebraicBackend, goals: &
 }
 
 /// All leans at which the given steering torque holds: sign changes along a sweep of the lean, each then solved for.
-fn with_torque(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend, speed: f64, goal: Goal) -> Result<Vec<TrimPoint>, Failure> {
+fn with_torque(
+    request: &Request,
+    system: &Arc<System>,
+    backend: &AlgebraicBackend,
+    speed: f64,
+    goal: Goal,
+) -> Result<Vec<TrimPoint>, Failure> {
     let torque = goal.turn.unwrap_or(0.0);
     let lean_request = Request { turn: Some((Turn::Lean, Prescribed { name: "lean", unit: "rad", values: vec![] })), ..request.clone() };
     let step = 0.05;
@@ -208,7 +218,8 @@ fn with_torque(request: &Request, system: &Arc<System>, backend: &AlgebraicBacke
     if found.is_empty() {
         let mut straight = moving(&lean_request, system, backend, speed, Goal { turn: Some(0.0), ..goal })?;
         straight.solved = false;
-        straight.ending = Ending::NotConverged { because: format!("no lean from -1 to 1 rad holds itself with a steering torque of {torque} N m") };
+        straight.ending =
+            Ending::NotConverged { because: format!("no lean from -1 to 1 rad holds itself with a steering torque of {torque} N m") };
         found.push(straight);
     }
     found.sort_by(|a, b| a.goals[1].1.total_cmp(&b.goals[1].1));

@@ -3,3 +3,4 @@
 #![allow(non_snake_case)]
 
 pub mod tire;
+pub const KINDS: &[mbody::assembly::ElementKind] = &[];

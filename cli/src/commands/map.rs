@@ -26,9 +26,9 @@ struct Arguments {
 }
 
 fn command(command: Command) -> Command {
-    Arguments::augment_args(command).about("Steady states over a grid of two swept options, as a contour figure").after_help(
-        "Example:\n  fastbike map gsxr1000 --speed 10..60:2 --curvature 0..0.05:0.002 --show steer.torque --plot torque.svg",
-    )
+    Arguments::augment_args(command)
+        .about("Steady states over a grid of two swept options, as a contour figure")
+        .after_help("Example:\n  fastbike map gsxr1000 --speed 10..60:2 --curvature 0..0.05:0.002 --show steer.torque --plot torque.svg")
 }
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
@@ -64,7 +64,10 @@ fn figure(report: &OwnedReport, show: &str) -> Result<Figure, Failure> {
     };
     let axes: Vec<(usize, Vec<f64>)> = (0..given.len()).map(|k| (k, distinct(k))).filter(|(_, v)| v.len() > 1).collect();
     let [(up, rows), (across, columns)] = &axes[..] else {
-        return Err(Failure::Argument(format!("a map needs two swept options, found {}; for example --speed 10..60:2 --lean 0deg..50deg:2deg", axes.len())));
+        return Err(Failure::Argument(format!(
+            "a map needs two swept options, found {}; for example --speed 10..60:2 --lean 0deg..50deg:2deg",
+            axes.len()
+        )));
     };
     let Some(signal) = report.signal(show) else {
         return Err(Failure::Argument(format!("--show {show}: no such signal")));

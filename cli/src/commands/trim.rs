@@ -40,7 +40,9 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let request = arguments.trim.request()?;
     let loaded = model::load(&arguments.model, context)?;
     let mut steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "trim")?;
-    steady.warnings.extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
+    steady
+        .warnings
+        .extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
     let report = report("trim", &loaded.name, &arguments.show, steady)?.in_axes(arguments.output.axes);
     let mut text = Vec::new();
     let options = Options { palette: context.palette, angles: arguments.output.angles() };

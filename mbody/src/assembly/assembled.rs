@@ -4,15 +4,14 @@ use super::description::{BaseDescription, Description, schema};
 use super::{Kinds, Site, tree};
 use crate::description::Library;
 use crate::description::document::Document;
-use crate::description::finding::{Finding, Findings, suggestion};
+use crate::description::finding::{Finding, Findings};
 use crate::description::quantity::parse_quantity;
-use crate::description::schema::validate;
+use crate::description::schema::Schema;
 use crate::description::urdf::{self, Robot};
 use crate::dynamics::System;
 use crate::force::Force;
 use crate::spatial::Vec3;
 use crate::stage::Workspace;
-use serde_json::Value;
 use std::sync::Arc;
 
 /// A system that was read from files.
@@ -32,7 +31,7 @@ pub struct Assembled {
     pub kinds: Vec<(String, String)>,
 }
 
-/// An override from outside the files: path and text, as in `--set front_tire.pressure=2.3bar`.
+/// An override from outside the files: path and text, as in `--set rear_spring.stiffness=58kN/m`.
 pub type Override = (String, String);
 
 /// Reads a description and assembles it.
@@ -53,16 +52,18 @@ pub fn assemble(file: &str, library: &dyn Library, kinds: &Kinds, overrides: &[O
     for (path, value) in of_elements {
         override_entry(&mut document, path, value, &mut findings);
     }
-    findings.extend(validate(&document, &schema(kinds)));
+    match Schema::new(&schema(kinds)) {
+        Ok(schema) => findings.extend(schema.check(&document)),
+        Err(errors) => findings.extend(errors),
+    }
     let robot = read_tree(&document, library, &of_tree, &mut findings);
     if findings.has_errors() {
         return (None, findings.sorted());
     }
-    let description: Description = match serde_path_to_error::deserialize(document.value()) {
+    let description: Description = match document.read("") {
         Ok(description) => description,
-        Err(error) => {
-            let path = error.path().to_string();
-            findings.push(document.located(Finding::error("invalid_entry", error.into_inner().to_string()).at_path(path)));
+        Err(errors) => {
+            findings.extend(errors);
             return (None, findings.sorted());
         }
     };
@@ -107,7 +108,7 @@ fn is_tree_path(path: &str) -> bool {
 fn read_tree(document: &Document, library: &dyn Library, overrides: &[&Override], findings: &mut Findings) -> Option<Robot> {
     let name = document.value().get("urdf")?.as_str()?;
     let Some(text) = library.text(name) else {
-        findings.push(document.located(Finding::error("missing_file", format!("file `{name}` was not found")).at_path("urdf")));
+        findings.push(document.locate(Finding::error("missing_file", format!("file `{name}` was not found")).at_path("urdf")));
         return None;
     };
     let (robot, of_urdf) = urdf::read(name, &text);
@@ -132,33 +133,11 @@ fn set_tree_entry(robot: &mut Robot, path: &str, text: &str, findings: &mut Find
     }
 }
 
-/// Overrides an entry of the description. `element.parameter` skips the tag of the kind; `joint.<name>.locked` goes to `joints`.
+/// Overrides an entry of the description; `joint.<name>.locked` stands under `joints` there.
 fn override_entry(document: &mut Document, path: &str, text: &str, findings: &mut Findings) {
-    let elements = document.value().get("elements").and_then(Value::as_object);
-    let (first, rest) = path.split_once('.').unwrap_or((path, ""));
-    let place = if let Some(joint) = path.strip_prefix("joint.") {
-        Some(format!("joints.{joint}"))
-    } else if let Some(Value::Object(element)) = elements.and_then(|e| e.get(first)) {
-        // `element.kind.parameter` and `element.parameter` both work
-        let tagged = rest.split('.').next().is_some_and(|tag| element.contains_key(tag));
-        let kind = element.keys().next().filter(|_| !tagged);
-        Some(kind.map_or_else(|| format!("elements.{path}"), |kind| format!("elements.{first}.{kind}.{rest}")))
-    } else {
-        document.value().get(first).map(|_| path.to_owned())
-    };
-    let known = || elements.into_iter().flat_map(|e| e.keys().map(String::as_str)).chain(["gravity", "base", "joint", "link"]);
-    match place {
-        Some(place) => {
-            if let Err(errors) = document.set(&place, text) {
-                findings.extend(errors);
-            }
-        }
-        None => {
-            let hint = suggestion(first, known());
-            findings.push(
-                Finding::error("unknown_path", format!("`{path}` names no entry of this description")).at_path(path).with_hint_from(hint),
-            );
-        }
+    let path = path.strip_prefix("joint.").map_or_else(|| path.to_owned(), |joint| format!("joints.{joint}"));
+    if let Err(errors) = document.set(&path, text) {
+        findings.extend(errors);
     }
 }
 
@@ -174,7 +153,7 @@ fn join(
     let down = Vec3::new(0.0, 0.0, -description.gravity.map_or(9.81, |g| g.si()));
     let mut of_tree = Findings::new();
     let model = tree::model(&robot, description.base, &description.joints, down, &mut of_tree);
-    findings.extend(of_tree.iter().map(|f| document.located(f.clone())));
+    findings.extend(of_tree.iter().map(|f| document.locate(f.clone())));
     let model = model?;
     let locked: Vec<String> = description.joints.iter().filter(|(_, o)| o.locked).map(|(name, _)| name.clone()).collect();
     let mut design = Workspace::new(&model);
@@ -206,7 +185,7 @@ fn join(
         }
     }
     let failed = of_elements.has_errors();
-    findings.extend(of_elements.iter().map(|f| document.located(f.clone())));
+    findings.extend(of_elements.iter().map(|f| document.locate(f.clone())));
     if failed {
         return None;
     }
@@ -220,7 +199,7 @@ fn join(
             kinds: named,
         }),
         Err(error) => {
-            findings.push(document.located(Finding::error("signal_clash", error.to_string()).at_path("elements")));
+            findings.push(document.locate(Finding::error("signal_clash", error.to_string()).at_path("elements")));
             None
         }
     }
