@@ -2,7 +2,8 @@
 
 use super::JointKind;
 use super::place::{self, Places};
-use crate::description::finding::{Finding, Findings, names, suggestion};
+use crate::description::finding::{Finding, Findings, suggestion};
+use crate::description::nearest::names;
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
 
