@@ -73,7 +73,7 @@ impl Schema {
                 };
                 one(About::Value, finding)
             }
-            _ if !open && !(tags.is_empty() && words.is_empty()) => {
+            _ if !open && (!tags.is_empty() || !words.is_empty()) => {
                 one(About::Value, wrong_type(value, &format!("one of {}", list(&all_words()))))
             }
             _ => self.likeliest(pointer, &schemas, context, root),

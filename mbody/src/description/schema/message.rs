@@ -179,5 +179,5 @@ fn short(text: &str) -> String {
 }
 
 pub(super) fn list(words: &[&str]) -> String {
-    crate::description::finding::names(words)
+    crate::description::nearest::names(words)
 }

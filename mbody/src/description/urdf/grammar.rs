@@ -1,6 +1,6 @@
 //! Which elements and attributes URDF has, and what stands in them.
 
-use super::place::{self, Places};
+use super::place::Places;
 use crate::description::finding::{Finding, Findings, suggestion};
 use roxmltree::{Attribute, Document, Node};
 use std::collections::BTreeMap;
@@ -214,7 +214,7 @@ impl Checker<'_> {
             match known.children.iter().find(|e| e.name == name) {
                 Some(element) => {
                     let path = path_of(child, path);
-                    self.places.insert(path.clone(), place::of_node(child));
+                    self.places.insert(path.clone(), self.places.of_node(child));
                     self.attributes(child, element, &path);
                     self.children(child, element, &path);
                 }
@@ -227,13 +227,13 @@ impl Checker<'_> {
     fn unknown_element(&mut self, child: Node, known: &Element, path: &str) {
         let name = child.tag_name().name();
         if known.foreign.contains(&name) || child.tag_name().namespace().is_some() {
-            let count = self.foreign.entry(name.to_string()).or_insert((0, place::of_node(child)));
+            let count = self.foreign.entry(name.to_string()).or_insert((0, self.places.of_node(child)));
             count.0 += 1;
             return;
         }
         let finding = Finding::warning("unknown_element", format!("unknown element `<{name}>` in {}", owner(child)))
             .with_hint_from(suggestion(name, known.children.iter().map(|e| e.name)));
-        self.report_unknown((known.name, name), finding, &path_of(child, path), place::of_node(child));
+        self.report_unknown((known.name, name), finding, &path_of(child, path), self.places.of_node(child));
     }
 
     /// Of the same unknown thing in many places, one is reported.
@@ -250,7 +250,7 @@ impl Checker<'_> {
     /// What is missing, and what stands there twice.
     fn multiplicity(&mut self, node: Node, known: &Element, path: &str) {
         let count = |name: &str| node.children().filter(|c| c.is_element() && c.tag_name().name() == name).count();
-        let at = place::of_node(node);
+        let at = self.places.of_node(node);
         for element in known.children {
             let (name, n) = (element.name, count(element.name));
             if n == 0 && element.times == Times::Once {
@@ -271,11 +271,11 @@ impl Checker<'_> {
         for (name, _, required) in known.attributes {
             if *required && node.attribute(*name).is_none() {
                 let message = format!("{} has no attribute `{name}`", this(node));
-                self.report(Finding::error("missing_attribute", message), path, place::of_node(node));
+                self.report(Finding::error("missing_attribute", message), path, self.places.of_node(node));
             }
         }
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
-            let (name, at) = (attribute.name(), place::of_attribute(node, attribute));
+            let (name, at) = (attribute.name(), self.places.of_attribute(attribute));
             let path = format!("{path}.{name}");
             self.places.insert(path.clone(), at);
             match known.attributes.iter().find(|(n, _, _)| *n == name) {

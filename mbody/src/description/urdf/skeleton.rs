@@ -1,8 +1,9 @@
 //! Who carries whom: names, parents and children, before any number is looked at.
 
 use super::JointKind;
-use super::place::{self, Places};
-use crate::description::finding::{Finding, Findings, names, suggestion};
+use super::place::Places;
+use crate::description::finding::{Finding, Findings, suggestion};
+use crate::description::nearest::names;
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
 
@@ -61,7 +62,7 @@ impl Skeleton {
         let links = elements("link").map(|node| SkeletonLink {
             name: text(Some(node), "name"),
             has_inertial: child(node, "inertial").is_some(),
-            at: place::of_node(node),
+            at: places.of_node(node),
         });
         let joints = elements("joint").map(|node| {
             let type_name = text(Some(node), "type");
@@ -73,7 +74,7 @@ impl Skeleton {
                 child: text(child(node, "child"), "link"),
                 mimic: child(node, "mimic").and_then(|m| m.attribute("joint")).map(str::to_string),
                 has_limit: child(node, "limit").is_some(),
-                at: place::of_node(node),
+                at: places.of_node(node),
             }
         });
         let skeleton = Self { links: links.collect(), joints: joints.collect() };
