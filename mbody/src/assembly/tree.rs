@@ -82,6 +82,8 @@ fn bodies(
 ) -> Result<(), BuildError> {
     let mass = |link: &str| robot.link(link).and_then(|l| l.mass).unwrap_or(MassProperties::NONE);
     match base_joint(base) {
+        // a root link that is called `world` is the world
+        None if robot.root == "world" => {}
         None => builder.weld(&robot.root, BodyIndex::WORLD, Pose::identity(), mass(&robot.root))?,
         Some(joint) => {
             builder.body(&robot.root, BodyIndex::WORLD, &robot.root, joint, Pose::identity(), mass(&robot.root))?;
