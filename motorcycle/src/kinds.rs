@@ -5,6 +5,7 @@ use crate::brake::BrakeDescription;
 use crate::drivetrain::{ChainDescription, EngineDescription, EngineRotorDescription, ShaftDriveDescription};
 use crate::steering::{SingleTrackDescription, SteeringDamperDescription, SteeringStopDescription};
 use crate::suspension::{SwingarmShockDescription, TelescopicForkDescription};
+use crate::tire::{ThinDiscLinearDescription, TireDescription};
 use mbody::assembly::ElementKind;
 
 /// The URDF in whose terms the examples of this crate are written.
@@ -12,6 +13,8 @@ pub const EXAMPLE_TREE: &str = include_str!("example_tree.urdf");
 
 /// The element kinds of this crate; the registry is `Kinds::standard().with(motorcycle::KINDS)`.
 pub const KINDS: &[ElementKind] = &[
+    ElementKind::of::<TireDescription>(),
+    ElementKind::of::<ThinDiscLinearDescription>(),
     ElementKind::of::<TelescopicForkDescription>(),
     ElementKind::of::<SwingarmShockDescription>(),
     ElementKind::of::<ChainDescription>(),
@@ -38,6 +41,8 @@ mod tests {
 
     #[test]
     fn every_example_can_be_read() {
+        reads::<TireDescription>();
+        reads::<ThinDiscLinearDescription>();
         reads::<TelescopicForkDescription>();
         reads::<SwingarmShockDescription>();
         reads::<ChainDescription>();

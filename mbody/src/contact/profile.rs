@@ -149,6 +149,14 @@ impl Profile {
         }
     }
 
+    /// First and last inclination that were measured, rad; `None` for shapes that are known everywhere.
+    pub fn measured_range(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Table(table) => Some(table.spline.range()),
+            _ => None,
+        }
+    }
+
     /// The point that touches a tangent of inclination g, rad.
     #[inline]
     pub fn meridian<S: Real>(&self, g: S) -> Meridian<S> {

@@ -32,6 +32,10 @@ pub trait JointLaw: fmt::Debug + Send + Sync + 'static {
     fn reference(&self) -> Vec<f64> {
         vec![0.0; self.coordinates().len()]
     }
+    /// Unit axis, fixed in F and in M, about which the joint turns, where it only turns about one.
+    fn rotation_axis(&self) -> Option<Vec3<f64>> {
+        None
+    }
     /// `X_FM(q)`.
     fn pose<S: Real>(&self, q: &[S]) -> Pose<S>;
     /// `q̇ = N(q) v`; without an override N is the identity.
@@ -150,6 +154,7 @@ pub struct Joint {
     coordinates: &'static [Coordinate],
     velocities: &'static [Coordinate],
     reference: Vec<f64>,
+    rotation_axis: Option<Vec3<f64>>,
     text: String,
 }
 
@@ -163,8 +168,13 @@ impl Joint {
     /// Stores a law.
     pub fn new<J: JointLaw>(law: J) -> Self {
         let (coordinates, velocities, reference) = (law.coordinates(), law.velocities(), law.reference());
-        let text = format!("{law:?}");
-        Self { twins: PerScalar::new(&Maker(Arc::new(law))), coordinates, velocities, reference, text }
+        let (rotation_axis, text) = (law.rotation_axis(), format!("{law:?}"));
+        Self { twins: PerScalar::new(&Maker(Arc::new(law))), coordinates, velocities, reference, rotation_axis, text }
+    }
+
+    /// Unit axis, fixed in F and in M, about which the joint turns, where it only turns about one.
+    pub fn rotation_axis(&self) -> Option<Vec3<f64>> {
+        self.rotation_axis
     }
 
     /// Number of coordinates.

@@ -35,6 +35,9 @@ impl JointLaw for Revolute {
     fn velocities(&self) -> &'static [Coordinate] {
         &[Coordinate { name: "rate", unit: "rad/s", about: "angular speed about the joint axis", nominal: 1.0, cyclic: false }]
     }
+    fn rotation_axis(&self) -> Option<Vec3<f64>> {
+        Some(self.axis)
+    }
     #[inline(always)]
     fn pose<S: Real>(&self, q: &[S]) -> Pose<S> {
         Pose::new(rotation(self.axis, q[0]), Vec3::zero())

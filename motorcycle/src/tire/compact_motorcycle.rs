@@ -240,6 +240,10 @@ impl TireLaw for CompactMotorcycle {
     fn cornering_stiffness<S: SystemScalar>(&self, load: S, _camber: S) -> S {
         self.0.lateral.cornering_stiffness.at(self.ratio(load)) * load
     }
+
+    fn saturates(&self) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub struct Slip<S> {
 }
 
 /// What a law answers: forces and moments of the road on the tire at the contact point.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Friction<S> {
     /// Force forward, N.
     pub longitudinal: S,
@@ -49,6 +49,9 @@ pub trait TireLaw: Send + Sync + 'static {
     /// It is the slope dFy/da at zero slip of the upright tire, with the parameters of that camber. In laws whose side force
     /// saturates with slip and camber together, the slope of the leaning tire itself is smaller.
     fn cornering_stiffness<S: SystemScalar>(&self, load: S, camber: S) -> S;
+
+    /// Whether the forces have a peak, so that the utilization means something.
+    fn saturates(&self) -> bool;
 }
 
 /// A law for one scalar: object-safe, implemented for every [`TireLaw`].
@@ -85,12 +88,16 @@ impl<L: TireLaw> Make<LawFamily> for Shared<L> {
 
 /// A law of any kind; cheap to clone.
 #[derive(Clone)]
-pub struct AnyTireLaw(Arc<PerScalar<LawFamily>>);
+pub struct AnyTireLaw {
+    laws: Arc<PerScalar<LawFamily>>,
+    saturates: bool,
+}
 
 impl AnyTireLaw {
     /// Stores a law.
     pub fn new(law: impl TireLaw) -> Self {
-        Self(Arc::new(PerScalar::new(&Shared(Arc::new(law)))))
+        let saturates = law.saturates();
+        Self { laws: Arc::new(PerScalar::new(&Shared(Arc::new(law)))), saturates }
     }
 }
 
@@ -103,11 +110,15 @@ impl std::fmt::Debug for AnyTireLaw {
 impl TireLaw for AnyTireLaw {
     #[inline]
     fn friction<S: SystemScalar>(&self, slip: &Slip<S>) -> Friction<S> {
-        S::pick(&self.0).friction_at(slip)
+        S::pick(&self.laws).friction_at(slip)
     }
 
     #[inline]
     fn cornering_stiffness<S: SystemScalar>(&self, load: S, camber: S) -> S {
-        S::pick(&self.0).cornering_stiffness_at(load, camber)
+        S::pick(&self.laws).cornering_stiffness_at(load, camber)
+    }
+
+    fn saturates(&self) -> bool {
+        self.saturates
     }
 }

@@ -73,6 +73,10 @@ impl TireLaw for LinearNormalized {
     fn cornering_stiffness<S: SystemScalar>(&self, load: S, _camber: S) -> S {
         load * self.0.cornering_stiffness
     }
+
+    fn saturates(&self) -> bool {
+        false
+    }
 }
 
 #[cfg(test)]

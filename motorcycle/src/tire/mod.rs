@@ -3,18 +3,41 @@
 //! A friction law ([`TireLaw`]) turns slip, camber and load into forces and moments, in the ISO axes of the contact point:
 //! x forward, y left, z up; camber positive leaning right; lateral slip `a = −V_sy/V*` positive when the tire slides to the
 //! right, so that for small slips `Fy ≈ C_α a − C_γ γ` with both stiffnesses positive. One file holds one law.
+//!
+//! The element [`Tire`] puts a law on a wheel ([`wheel`]) with a carcass ([`deformable`], [`vertical`]); [`ThinDiscLinear`] is the
+//! closed form of a benchmark. Their rows in the table of kinds are [`ELEMENT_KINDS`].
 
+pub mod carcass;
 pub mod compact_motorcycle;
+pub mod deformable;
+pub mod description;
+pub mod element;
 pub mod invalid;
 pub mod law;
 pub mod linear_normalized;
 pub mod magic_formula_motorcycle;
 pub mod rolling_resistance;
 pub mod sharp_linear;
+pub mod thin_disc_linear;
+pub mod vertical;
+pub mod wheel;
 
 #[cfg(test)]
 mod conformity;
+mod patch;
 mod shape;
 
+pub use carcass::{Elastic, RelaxationLength, RoadContact};
+pub use deformable::Deformable;
+pub use description::TireDescription;
+pub use element::{Carcass, Tire};
 pub use invalid::InvalidTireData;
 pub use law::{AnyTireLaw, Friction, Slip, TireLaw};
+pub use thin_disc_linear::{ThinDiscLinear, ThinDiscLinearDescription};
+pub use vertical::{Relaxation, Vertical};
+pub use wheel::Wheel;
+
+use mbody::assembly::ElementKind;
+
+/// The element kinds of this folder.
+pub const ELEMENT_KINDS: &[ElementKind] = &[ElementKind::of::<TireDescription>(), ElementKind::of::<ThinDiscLinearDescription>()];

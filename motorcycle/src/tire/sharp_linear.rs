@@ -99,6 +99,10 @@ impl TireLaw for SharpLinear {
     fn cornering_stiffness<S: SystemScalar>(&self, load: S, _camber: S) -> S {
         polynomial(&self.0.cornering_stiffness, load)
     }
+
+    fn saturates(&self) -> bool {
+        false
+    }
 }
 
 #[cfg(test)]

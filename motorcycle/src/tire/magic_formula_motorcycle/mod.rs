@@ -191,6 +191,10 @@ impl TireLaw for MagicFormulaMotorcycle {
     fn cornering_stiffness<S: SystemScalar>(&self, load: S, camber: S) -> S {
         self.side(&self.load(load), camber * camber).stiffness * load
     }
+
+    fn saturates(&self) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

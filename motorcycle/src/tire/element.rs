@@ -1,0 +1,100 @@
+//! The tire as a force element: a wheel, a carcass, a friction law.
+//!
+//! The carcass is either deformable in the directions of the rim ([`Deformable`]) or a vertical spring with a relaxation of slip
+//! or force ([`Vertical`]). Both hand over a patch: forces, slips, rows, energy.
+
+use super::carcass::RoadContact;
+use super::deformable::Deformable;
+use super::law::{AnyTireLaw, TireLaw};
+use super::patch::{Patch, limits, outputs};
+use super::rolling_resistance::RollingResistance;
+use super::vertical::Vertical;
+use super::wheel::{Rolling, Wheel};
+use mbody::force::{Declared, Effort, Energy, Evaluated, ForceLaw, StateDeclared};
+use mbody::scalar::SystemScalar;
+
+/// How the tire gives way between rim and road.
+#[derive(Clone, Debug)]
+pub enum Carcass {
+    /// Springs radial and lateral of the rim; forces act where the deformed tire touches.
+    Deformable(Deformable),
+    /// A spring along the normal of the road, with a relaxation of slip or force.
+    Vertical(Vertical),
+}
+
+/// A tire on a wheel.
+#[derive(Clone, Debug)]
+pub struct Tire {
+    /// The wheel.
+    pub wheel: Wheel,
+    /// Carcass.
+    pub carcass: Carcass,
+    /// Friction at the contact.
+    pub law: AnyTireLaw,
+    /// Whether it can leave the road.
+    pub contact: RoadContact,
+    /// Rolling resistance.
+    pub rolling_resistance: RollingResistance,
+    /// Share of the compression by which the effective rolling radius is smaller than the free one, 0 to 1.
+    pub effective_radius_fraction: f64,
+    /// Speed V0 below which slips are rounded, m/s.
+    pub low_speed: f64,
+}
+
+impl Tire {
+    /// Reference speed `V* = √(V_x² + V0²)`, m/s.
+    #[inline]
+    pub(super) fn reference_speed<S: SystemScalar>(&self, forward: S) -> S {
+        (forward * forward + self.low_speed * self.low_speed).sqrt()
+    }
+
+    fn states(&self) -> Vec<StateDeclared> {
+        match &self.carcass {
+            Carcass::Deformable(c) => c.states(),
+            Carcass::Vertical(c) => c.states(),
+        }
+    }
+
+    #[inline]
+    fn patch<S: SystemScalar>(&self, rolling: &Rolling<S>, at: &Evaluated<'_, S>) -> Patch<S> {
+        match &self.carcass {
+            Carcass::Deformable(c) => c.patch(self, rolling, at),
+            Carcass::Vertical(c) => c.patch(self, rolling, at),
+        }
+    }
+}
+
+impl ForceLaw for Tire {
+    fn declare(&self, element: &str) -> Declared {
+        Declared {
+            states: self.states(),
+            inputs: self.wheel.inputs(),
+            outputs: outputs(element),
+            limits: limits(element, &self.wheel, self.law.saturates()),
+            spinning: vec![self.wheel.body],
+        }
+    }
+
+    fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {
+        let rolling = self.wheel.rolling(at);
+        let patch = self.patch(&rolling, at);
+        patch.apply(&self.wheel, &rolling, out);
+        for (i, row) in patch.rows.into_iter().enumerate().take(self.carcass.state_count()) {
+            out.row(i, row);
+        }
+    }
+
+    fn energy<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> Energy<S> {
+        let rolling = self.wheel.rolling(at);
+        self.patch(&rolling, at).energy(&rolling)
+    }
+}
+
+impl Carcass {
+    fn state_count(&self) -> usize {
+        match self {
+            Self::Deformable(c) => c.state_count(),
+            Self::Vertical(c) => c.state_count(),
+        }
+    }
+}

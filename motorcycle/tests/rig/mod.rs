@@ -1,0 +1,183 @@
+//! What the tests of vehicles need: trees from URDF, signals by name, a Newton iteration and the modes of a system.
+#![allow(dead_code, reason = "each test uses its part")]
+
+use mbody::description::urdf::{self, JointKind};
+use mbody::dynamics::{System, TreePlant};
+use mbody::force::Force;
+use mbody::joint::{Joint, Prismatic, Revolute, VehicleBase};
+use mbody::model::{BodyIndex, Model, ModelBuilder};
+use mbody::spatial::{MassProperties, Pose};
+use nalgebra::{Complex, DMatrix, DVector};
+use problem::{At, Dae, Differentiable, EquationKind, Matrix, Outputs, Seeds, UnknownKind};
+use std::sync::Arc;
+
+/// The tree of a vehicle on a vehicle base.
+pub fn vehicle(urdf: &str) -> Model {
+    let (robot, findings) = urdf::read("test.urdf", urdf);
+    let robot = robot.unwrap_or_else(|| panic!("{findings:?}"));
+    let mut builder = ModelBuilder::new();
+    let mass = |name: &str| robot.link(name).and_then(|l| l.mass).unwrap_or(MassProperties::NONE);
+    builder.body(&robot.root, BodyIndex::WORLD, "", Joint::new(VehicleBase), Pose::identity(), mass(&robot.root)).expect("a base");
+    for joint in &robot.joints {
+        let (parent, X) = builder.find(&joint.parent).expect("parents first");
+        let motion = match joint.kind {
+            JointKind::Prismatic => Joint::new(Prismatic::new(joint.axis)),
+            _ => Joint::new(Revolute::new(joint.axis)),
+        };
+        builder.body(&joint.child, parent, &joint.name, motion, X * joint.origin, mass(&joint.child)).expect("a body");
+    }
+    builder.finish().expect("a tree")
+}
+
+/// A place in the arguments of a plant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Slot {
+    /// An unknown.
+    Y(usize),
+    /// An input.
+    U(usize),
+}
+
+/// A plant with its arguments, by name.
+pub struct Rig {
+    pub plant: TreePlant,
+    pub y: Vec<f64>,
+    pub yd: Vec<f64>,
+    pub u: Vec<f64>,
+}
+
+impl Rig {
+    pub fn new(model: Model, forces: Vec<Force>) -> Self {
+        let plant = TreePlant::new(Arc::new(System::new(model, forces).expect("a system")));
+        let y: Vec<f64> = plant.unknowns().iter().map(|u| u.design).collect();
+        let (n, m) = (y.len(), plant.inputs().len());
+        Self { plant, y, yd: vec![0.0; n], u: vec![0.0; m] }
+    }
+
+    pub fn slot(&self, name: &str) -> Slot {
+        let y = self.plant.unknowns().iter().position(|u| u.signal.name == name).map(Slot::Y);
+        y.or_else(|| self.plant.inputs().iter().position(|u| u.signal.name == name).map(Slot::U))
+            .unwrap_or_else(|| panic!("no unknown or input is called {name}"))
+    }
+
+    pub fn get(&self, name: &str) -> f64 {
+        match self.slot(name) {
+            Slot::Y(i) => self.y[i],
+            Slot::U(i) => self.u[i],
+        }
+    }
+
+    pub fn set(&mut self, name: &str, value: f64) {
+        let slot = self.slot(name);
+        self.set_slot(slot, value);
+    }
+
+    fn set_slot(&mut self, slot: Slot, value: f64) {
+        match slot {
+            Slot::Y(i) => self.y[i] = value,
+            Slot::U(i) => self.u[i] = value,
+        }
+    }
+
+    /// Sets the rate of an unknown.
+    pub fn set_rate(&mut self, name: &str, rate: f64) {
+        let Slot::Y(i) = self.slot(name) else { panic!("{name} is an input") };
+        self.yd[i] = rate;
+    }
+
+    pub fn output_index(&self, name: &str) -> usize {
+        self.plant.outputs().iter().position(|o| o.name == name).unwrap_or_else(|| panic!("no output is called {name}"))
+    }
+
+    /// Residual and outputs.
+    pub fn evaluate(&mut self) -> (Vec<f64>, Vec<f64>) {
+        let (mut r, mut z) = (vec![0.0; self.plant.equations().len()], vec![0.0; self.plant.outputs().len()]);
+        let at = At { time: 0.0, y: &self.y, yd: &self.yd, u: &self.u };
+        self.plant.evaluate(at, &mut r, &mut z).expect("finite");
+        (r, z)
+    }
+
+    pub fn output(&mut self, name: &str) -> f64 {
+        let i = self.output_index(name);
+        self.evaluate().1[i]
+    }
+
+    /// Rows that must vanish in a steady motion: of motion and of elements.
+    pub fn steady_rows(&self) -> Vec<usize> {
+        let rows = self.plant.equations().iter().enumerate();
+        rows.filter(|(_, e)| e.kind != EquationKind::Kinematic).map(|(i, _)| i).collect()
+    }
+
+    /// Residual of a row by name.
+    pub fn row(&mut self, name: &str) -> f64 {
+        let i = self.plant.equations().iter().position(|e| e.name == name).unwrap_or_else(|| panic!("no row is called {name}"));
+        self.evaluate().0[i]
+    }
+
+    /// Derivatives of residual and outputs along directions.
+    pub fn along(&mut self, seeds: &Seeds) -> (Matrix, Matrix) {
+        let (nr, nz) = (self.plant.equations().len(), self.plant.outputs().len());
+        let (mut r, mut z) = (vec![0.0; nr], vec![0.0; nz]);
+        let (mut dr, mut dz) = (Matrix::zeros(nr, seeds.columns()), Matrix::zeros(nz, seeds.columns()));
+        let at = At { time: 0.0, y: &self.y, yd: &self.yd, u: &self.u };
+        self.plant.along(at, seeds, (&mut r, &mut z), &mut dr, &mut dz).expect("finite");
+        (dr, dz)
+    }
+
+    /// Newton: makes the steady rows zero and outputs meet their targets by changing unknowns and inputs; returns the iterations.
+    pub fn solve(&mut self, unknowns: &[&str], targets: &[(&str, f64)]) -> usize {
+        let slots: Vec<Slot> = unknowns.iter().map(|n| self.slot(n)).collect();
+        let rows = self.steady_rows();
+        let outputs: Vec<(usize, f64)> = targets.iter().map(|(n, value)| (self.output_index(n), *value)).collect();
+        assert_eq!(slots.len(), rows.len() + outputs.len(), "square");
+        let mut seeds = Seeds::zeros(self.y.len(), self.u.len(), slots.len());
+        for (k, slot) in slots.iter().enumerate() {
+            match *slot {
+                Slot::Y(i) => seeds.y[(i, k)] = 1.0,
+                Slot::U(i) => seeds.u[(i, k)] = 1.0,
+            }
+        }
+        for iteration in 0..30 {
+            let (r, z) = self.evaluate();
+            let residual: Vec<f64> = rows.iter().map(|&i| r[i]).chain(outputs.iter().map(|&(i, t)| z[i] - t)).collect();
+            let f = DVector::from_vec(residual);
+            let (dr, dz) = self.along(&seeds);
+            let J = DMatrix::from_fn(slots.len(), slots.len(), |i, k| {
+                if i < rows.len() { dr[(rows[i], k)] } else { dz[(outputs[i - rows.len()].0, k)] }
+            });
+            let step = J.lu().solve(&f).expect("regular");
+            for (slot, dx) in slots.iter().zip(step.iter()) {
+                let now = match *slot {
+                    Slot::Y(i) => self.y[i],
+                    Slot::U(i) => self.u[i],
+                };
+                self.set_slot(*slot, now - dx);
+            }
+            if step.amax() < 1e-10 {
+                return iteration;
+            }
+        }
+        panic!("no convergence");
+    }
+
+    /// Eigenvalues of `E δẏ + A δy = 0` without the cyclic coordinates, by falling imaginary part.
+    pub fn eigenvalues(&mut self) -> Vec<Complex<f64>> {
+        let kept: Vec<usize> = {
+            let unknowns = self.plant.unknowns().iter().enumerate();
+            unknowns.filter(|(_, u)| u.kind != UnknownKind::Position || !u.cyclic).map(|(i, _)| i).collect()
+        };
+        let n = kept.len();
+        let mut seeds = Seeds::zeros(self.y.len(), self.u.len(), 2 * n);
+        for (k, &i) in kept.iter().enumerate() {
+            seeds.y[(i, k)] = 1.0;
+            seeds.yd[(i, n + k)] = 1.0;
+        }
+        let (dr, _) = self.along(&seeds);
+        let A = DMatrix::from_fn(n, n, |i, k| dr[(kept[i], k)]);
+        let E = DMatrix::from_fn(n, n, |i, k| dr[(kept[i], n + k)]);
+        let state = -E.lu().solve(&A).expect("regular");
+        let mut values: Vec<_> = state.complex_eigenvalues().iter().copied().collect();
+        values.sort_by(|a, b| b.im.total_cmp(&a.im).then(a.re.total_cmp(&b.re)));
+        values
+    }
+}
