@@ -129,14 +129,9 @@ fn the_turn_on_which_the_peers_agree_is_met() {
 #[test]
 fn the_eigenvalues_on_which_the_peers_agree_are_met() {
     let found = turn(30.0, 0.0).eigenvalues();
-    for [re, im] in [
-        [-29.5122, 73.2654],
-        [-80.5883, 56.6364],
-        [-15.7023, 48.9841],
-        [-10.9462, 25.3710],
-        [-2.3634, 16.9032],
-        [-5.4951, 13.4513],
-    ] {
+    for [re, im] in
+        [[-29.5122, 73.2654], [-80.5883, 56.6364], [-15.7023, 48.9841], [-10.9462, 25.3710], [-2.3634, 16.9032], [-5.4951, 13.4513]]
+    {
         let nearest = found.iter().map(|l| (l.re - re).abs().max((l.im - im).abs())).fold(f64::INFINITY, f64::min);
         assert!(nearest < 0.5e-4 + 1e-9, "{re} ± {im}i misses by {nearest}");
     }
