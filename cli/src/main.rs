@@ -1,2 +1,7 @@
 //! The `fastbike` binary.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    fastbike::main_with(fastbike::standard_kinds())
+}

@@ -1,5 +1,21 @@
 //! Tires, suspensions, drivetrain, brakes, aerodynamics, riders: force elements for mbody.
+//!
+//! Each kind of element is one file: its law, generic over the scalar, and its written form. [`KINDS`] lists them.
 #![forbid(unsafe_code)]
 #![allow(non_snake_case)]
 
+pub mod aero;
+pub mod brake;
+pub mod drivetrain;
+mod kinds;
+mod planar;
+mod signal;
+pub mod steering;
+pub mod suspension;
 pub mod tire;
+
+#[cfg(test)]
+mod bench_tree;
+
+pub use kinds::{EXAMPLE_TREE, KINDS};
+pub use planar::Planar;

@@ -2,11 +2,16 @@
 //!
 //! The registry is a value, [`Kinds`]: `Kinds::standard().with(other_crate::KINDS)`, never a global.
 
+mod assembled;
 pub mod characteristic;
+mod description;
 mod elements;
 mod kind;
 mod site;
+mod tree;
 
+pub use assembled::{Assembled, Override, assemble, assemble_urdf};
+pub use description::{BaseDescription, Description, schema};
 pub use elements::STANDARD;
 pub use kind::{ElementDescription, ElementKind, Kinds};
 pub use site::{PointDescription, Site};

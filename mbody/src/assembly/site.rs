@@ -113,7 +113,7 @@ impl<'a> Site<'a> {
         self.design.X_WB[body.get()]
     }
 
-    /// Text that the description refers to: a table, a tire data file.
+    /// Text that the description refers to: a table, a data file.
     pub fn text(&mut self, key: &str, name: &str) -> Option<String> {
         let found = self.library.text(name).map(|t| t.into_owned());
         if found.is_none() {

@@ -1,12 +1,13 @@
 //! The written station: text as typed, read into values that know their units and their place in the file.
 //!
-//! Nothing here opens a path: text is handed down by a [`Library`]. Whatever is wrong is reported as [`Findings`], several at
-//! once, each with file, line and path; see [`finding`].
+//! Nothing here opens a path: text is handed down by a [`Library`]. Whatever is wrong is reported as [`finding::Findings`], several at
+//! once, each with file, line and path.
 
-//DOC
+pub mod document;
 pub mod finding;
+mod nearest;
 pub mod quantity;
-//SCH
+pub mod schema;
 pub mod urdf;
 
 use std::borrow::Cow;

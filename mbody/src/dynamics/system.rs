@@ -113,8 +113,7 @@ impl System {
         let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         let (mut kinematic, mut dynamic) = (Vec::new(), Vec::new());
         for (i, body) in self.model.bodies.iter().enumerate().skip(1) {
-            // the base of a vehicle speaks in the name of the body, other joints in their own
-            let owner = if body.joint_name.is_empty() { &body.name } else { &body.joint_name };
+            let owner = &body.joint_name;
             let spins = spinning(i);
             for (k, c) in body.q.clone().zip(body.joint.coordinates()) {
                 if layout.independent_q.contains(&k) {
@@ -253,6 +252,14 @@ impl System {
     /// The inputs.
     pub fn inputs(&self) -> &[Input] {
         &self.inputs
+    }
+
+    /// Height of every body's origin in the design pose, by the name of its joint, m.
+    pub fn design_heights(&self) -> Vec<(&str, f64)> {
+        let mut w = crate::stage::Workspace::<f64>::new(&self.model);
+        w.to_design(&self.model);
+        let height = |i: usize| w.world.X_WB[i].p.z;
+        self.model.bodies.iter().enumerate().skip(1).map(|(i, b)| (b.joint_name.as_str(), height(i))).collect()
     }
 
     /// The unknowns.

@@ -9,7 +9,7 @@
 //! | S | | C2 one-sided ramp of width w: `F_stop = k_b S(x − x_b) − k_t S(x_t − x)` |
 //! | v₀ | | rounding of the bilinear damper, `½(c_b + c_r) v + ½(c_b − c_r)(√(v² + v₀²) − v₀)` |
 //!
-//! Source: V. Cossalter, *Motorcycle Dynamics* (2006), suspension chapters, for the parts; the smoothing is ours.
+//! Source: elementary parts; the air column is the polytropic law of a closed volume, the smoothing is ours.
 
 use crate::scalar::{
     CubicSpline, Pchip, Real,

@@ -172,6 +172,18 @@ impl<S: SystemScalar> Evaluated<'_, S> {
         &self.velocity.v[self.model.body(body).v.clone()]
     }
 
+    /// First acceleration of the joint that carries a body.
+    #[inline]
+    pub fn acceleration(&self, body: BodyIndex) -> S {
+        self.acceleration.vd[self.model.body(body).v.start]
+    }
+
+    /// Angular acceleration of a body, in world axes.
+    #[inline]
+    pub fn alpha_WB(&self, body: BodyIndex) -> Vec3<S> {
+        self.X_WB(body).R * self.acceleration.A_WB[body.0].w
+    }
+
     /// An own state.
     #[inline]
     pub fn state(&self, i: usize) -> S {

@@ -2,6 +2,7 @@
 //!
 //! All arrays are indexed by body (0 = world); twists and accelerations are written in body axes about the body origin.
 
+use crate::algorithm::kinematics;
 use crate::model::Model;
 use crate::scalar::{Family, Make, Real, SystemScalar};
 use crate::spatial::{ArticulatedInertia, Inertia, Pose, Twist, Wrench};
@@ -95,6 +96,17 @@ impl<S: Real> Workspace<S> {
             u: vec![S::zero(); nv],
             D: vec![[[S::zero(); 6]; 6]; n],
         }
+    }
+}
+
+impl Workspace<f64> {
+    /// Poses of all bodies with every joint at its reference.
+    pub fn to_design(&mut self, model: &Model) {
+        for body in model.bodies.iter().skip(1) {
+            self.position.q[body.q.clone()].copy_from_slice(body.joint.reference());
+        }
+        kinematics::position(model, &mut self.position);
+        kinematics::world(model, &self.position, &mut self.world);
     }
 }
 

@@ -1,1 +1,12 @@
-//! Engine-agnostic analyses: trim, modes, frequency response, transients.
+//! Analyses as services: they know signals and problem traits, never an engine and never a trade.
+//!
+//! [`trim`] finds steady states by inverse dynamics; [`expression`] is the small language in which conditions are written.
+
+#![allow(non_snake_case)]
+
+pub mod expression;
+pub mod trim;
+pub mod variable;
+
+pub use expression::{Expression, ExpressionError};
+pub use variable::{Variable, Variables};

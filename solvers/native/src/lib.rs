@@ -1,1 +1,6 @@
-//! Nonlinear and time solvers written in Rust.
+//! Nonlinear solvers written in Rust.
+
+mod elimination;
+mod newton;
+
+pub use newton::Newton;

@@ -1,1 +1,12 @@
-//! KINSOL and IDA behind the vocabulary of problem.
+//! KINSOL behind the vocabulary of `problem`.
+//!
+//! The C bindings are touched in the module `raw` only, which is also the only module of the workspace with `unsafe`
+//! code. What it hands out is safe: contexts, vectors, matrices and solvers free themselves, a panic inside a callback
+//! reaches the caller as a panic, and nothing is ever printed.
+
+mod guard;
+mod kinsol;
+mod raw;
+
+pub use kinsol::{Kinsol, Strategy};
+pub use raw::version;

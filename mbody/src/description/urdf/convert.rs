@@ -2,24 +2,24 @@
 
 use super::entry::{Inertial, JOINT_ENTRIES};
 use super::place::Places;
-use super::skeleton::{Skeleton, TreeOrder};
+use super::skeleton::{Skeleton, SkeletonJoint, TreeOrder};
 use super::{JointKind, Limits, Link, Mimic, Robot, Shape, UrdfJoint, Visual};
-use crate::description::finding::Finding;
+use crate::description::finding::{Finding, Findings};
 use crate::spatial::{Pose, Vec3};
 use std::sync::Arc;
-use urdf_rs::{Geometry, JointType};
+use urdf_rs::Geometry;
 
 /// The robot of a text whose grammar and tree have been checked.
-pub(super) fn robot(text: &str, skeleton: &Skeleton, order: TreeOrder, places: Places) -> Result<Robot, Finding> {
+pub(super) fn robot(file: &str, text: &str, skeleton: &Skeleton, order: TreeOrder, places: Places) -> Result<Robot, Findings> {
     let data = urdf_rs::read_from_string(text).map_err(|e| {
         let reason: String = e.to_string().chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect();
-        Finding::error("not_urdf", format!("the URDF reader refuses this text: {reason}"))
+        Finding::error("not_urdf", format!("the URDF reader refuses this text: {reason}")).in_file(file)
     })?;
     if data.links.len() != skeleton.links.len() || data.joints.len() != skeleton.joints.len() {
-        return Err(Finding::error("not_urdf", "links or joints stand where URDF does not expect them"));
+        return Err(Finding::error("not_urdf", "links or joints stand where URDF does not expect them").in_file(file).into());
     }
     let links = order.links.iter().map(|k| link(&data.links[*k], skeleton.links[*k].has_inertial, &data.materials));
-    let joints = order.joints.iter().map(|k| joint(&data.joints[*k], skeleton.joints[*k].has_limit));
+    let joints = order.joints.iter().map(|k| joint(&data.joints[*k], &skeleton.joints[*k]));
     let links: Vec<Link> = links.collect();
     let root = links[0].name.clone();
     Ok(Robot { name: data.name, links, joints: joints.collect(), root, places: Arc::new(places) })
@@ -60,16 +60,8 @@ fn visual(data: &urdf_rs::Visual, materials: &[urdf_rs::Material]) -> Visual {
     Visual { shape, origin: pose(&data.origin), color }
 }
 
-fn joint(data: &urdf_rs::Joint, has_limit: bool) -> UrdfJoint {
-    let kind = match data.joint_type {
-        JointType::Fixed => JointKind::Fixed,
-        JointType::Revolute => JointKind::Revolute,
-        JointType::Continuous => JointKind::Continuous,
-        JointType::Prismatic => JointKind::Prismatic,
-        JointType::Planar => JointKind::Planar,
-        JointType::Floating => JointKind::Floating,
-        JointType::Spherical => JointKind::Spherical,
-    };
+fn joint(data: &urdf_rs::Joint, skeleton: &SkeletonJoint) -> UrdfJoint {
+    let kind = skeleton.kind.unwrap_or(JointKind::Fixed);
     let limit = &data.limit;
     let (xyz, rpy, axis) = (*data.origin.xyz, *data.origin.rpy, *data.axis.xyz);
     let (damping, friction) = data.dynamics.as_ref().map_or((0.0, 0.0), |d| (d.damping, d.friction));
@@ -81,8 +73,13 @@ fn joint(data: &urdf_rs::Joint, has_limit: bool) -> UrdfJoint {
         child: data.child.link.clone(),
         origin: Pose::identity(),
         axis: Vec3 { x: 1.0, y: 0.0, z: 0.0 },
-        limits: has_limit.then_some(Limits { lower: limit.lower, upper: limit.upper, effort: limit.effort, velocity: limit.velocity }),
-        mimic: data.mimic.as_ref().map(|m| Mimic {
+        limits: skeleton.has_limit.then_some(Limits {
+            lower: limit.lower,
+            upper: limit.upper,
+            effort: limit.effort,
+            velocity: limit.velocity,
+        }),
+        mimic: data.mimic.as_ref().filter(|_| kind != JointKind::Fixed).map(|m| Mimic {
             joint: m.joint.clone(),
             multiplier: m.multiplier.unwrap_or(1.0),
             offset: m.offset.unwrap_or(0.0),

@@ -1,7 +1,7 @@
 //! Entries of a URDF that can be changed by name: `link.<name>.mass`, `joint.<name>.rpy.p`, ….
 
 use super::{JointKind, Link, Robot, UrdfJoint};
-use crate::description::finding::{Finding, suggestion};
+use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::quantity::dimension::{
     Angle, AngularDamping, Damping, Dimension, Dimensioned, Force, Inertia, Length, Mass, Number, Torque,
 };
@@ -117,7 +117,7 @@ impl Robot {
     ///
     /// # Errors
     /// There is no such entry; the nearest known one is named.
-    pub fn dimension_of(&self, path: &str) -> Result<&'static Dimension, Finding> {
+    pub fn dimension_of(&self, path: &str) -> Result<&'static Dimension, Findings> {
         match self.place(path)? {
             Place::Link(_, entry) => Ok(OF_LINK[entry].1),
             Place::Joint(joint, entry) => Ok(dimension_of_joint_entry(self.joints[joint].kind, entry)),
@@ -128,9 +128,9 @@ impl Robot {
     ///
     /// # Errors
     /// There is no such entry (the nearest known one is named), or the value is not finite.
-    pub fn set(&mut self, path: &str, value: f64) -> Result<(), Finding> {
+    pub fn set(&mut self, path: &str, value: f64) -> Result<(), Findings> {
         if !value.is_finite() {
-            return Err(Finding::error("bad_number", format!("`{path}` cannot be {value}")).at_path(path));
+            return Err(Finding::error("bad_number", format!("`{path}` cannot be {value}")).at_path(path).into());
         }
         match self.place(path)? {
             Place::Link(link, entry) => self.links[link].set(entry, value),
@@ -142,7 +142,7 @@ impl Robot {
         Ok(())
     }
 
-    fn place(&self, path: &str) -> Result<Place, Finding> {
+    fn place(&self, path: &str) -> Result<Place, Findings> {
         // names may contain points, so the known names are tried, not the path cut
         let entry_of = |rest: &str, name: &str, entries: &[(&str, &Dimension)]| {
             let entry = rest.strip_prefix(name)?.strip_prefix('.')?;
@@ -154,7 +154,7 @@ impl Robot {
         let joint = path
             .strip_prefix("joint.")
             .and_then(|rest| self.joints.iter().enumerate().find_map(|(k, j)| Some(Place::Joint(k, entry_of(rest, &j.name, &OF_JOINT)?))));
-        link.or(joint).ok_or_else(|| self.unknown_path(path))
+        link.or(joint).ok_or_else(|| self.unknown_path(path).into())
     }
 
     fn unknown_path(&self, path: &str) -> Finding {

@@ -1,6 +1,6 @@
 //! Which elements and attributes URDF has, and what stands in them.
 
-use super::place::{self, Places};
+use super::place::Places;
 use crate::description::finding::{Finding, Findings, suggestion};
 use roxmltree::{Attribute, Document, Node};
 use std::collections::BTreeMap;
@@ -175,11 +175,17 @@ const ROBOT: Element = Element {
 
 /// Everything in the text that URDF does not have, or that cannot be read; fills `places`.
 pub(super) fn check(document: &Document, places: &mut Places) -> Findings {
-    let mut checker = Checker { places, findings: Findings::new(), foreign: BTreeMap::new() };
+    let mut checker = Checker { places, findings: Findings::new(), foreign: BTreeMap::new(), unknown: Vec::new() };
     let root = document.root_element();
     checker.attributes(root, &ROBOT, "robot");
     checker.children(root, &ROBOT, "");
-    let Checker { places, mut findings, foreign, .. } = checker;
+    let Checker { places, mut findings, foreign, unknown } = checker;
+    for (_, times, mut finding) in unknown {
+        if times > 1 {
+            finding.message.push_str(&format!(", and {} more like it", times - 1));
+        }
+        findings.push(finding);
+    }
     for (name, (times, at)) in foreign {
         let what =
             if times == 1 { format!("`<{name}>` is for other programs") } else { format!("{times} `<{name}>` are for other programs") };
@@ -193,6 +199,8 @@ struct Checker<'a> {
     findings: Findings,
     /// How often an element for other programs occurs, and where first.
     foreign: BTreeMap<String, (usize, (usize, usize))>,
+    /// Element and name of what is unknown, how often it occurs, what to say about the first one.
+    unknown: Vec<((String, String), usize, Finding)>,
 }
 
 impl Checker<'_> {
@@ -206,7 +214,7 @@ impl Checker<'_> {
             match known.children.iter().find(|e| e.name == name) {
                 Some(element) => {
                     let path = path_of(child, path);
-                    self.places.insert(path.clone(), place::of_node(child));
+                    self.places.insert(path.clone(), self.places.of_node(child));
                     self.attributes(child, element, &path);
                     self.children(child, element, &path);
                 }
@@ -219,19 +227,30 @@ impl Checker<'_> {
     fn unknown_element(&mut self, child: Node, known: &Element, path: &str) {
         let name = child.tag_name().name();
         if known.foreign.contains(&name) || child.tag_name().namespace().is_some() {
-            let count = self.foreign.entry(name.to_string()).or_insert((0, place::of_node(child)));
+            let count = self.foreign.entry(name.to_string()).or_insert((0, self.places.of_node(child)));
             count.0 += 1;
             return;
         }
         let finding = Finding::warning("unknown_element", format!("unknown element `<{name}>` in {}", owner(child)))
             .with_hint_from(suggestion(name, known.children.iter().map(|e| e.name)));
-        self.report(finding, &path_of(child, path), place::of_node(child));
+        self.report_unknown((known.name, name), finding, &path_of(child, path), self.places.of_node(child));
+    }
+
+    /// Of the same unknown thing in many places, one is reported.
+    fn report_unknown(&mut self, (element, name): (&str, &str), finding: Finding, path: &str, at: (usize, usize)) {
+        match self.unknown.iter_mut().find(|((e, n), ..)| e == element && n == name) {
+            Some((_, times, _)) => *times += 1,
+            None => {
+                let finding = self.places.at(finding.at_path(path), at);
+                self.unknown.push(((element.to_string(), name.to_string()), 1, finding));
+            }
+        }
     }
 
     /// What is missing, and what stands there twice.
     fn multiplicity(&mut self, node: Node, known: &Element, path: &str) {
         let count = |name: &str| node.children().filter(|c| c.is_element() && c.tag_name().name() == name).count();
-        let at = place::of_node(node);
+        let at = self.places.of_node(node);
         for element in known.children {
             let (name, n) = (element.name, count(element.name));
             if n == 0 && element.times == Times::Once {
@@ -252,11 +271,11 @@ impl Checker<'_> {
         for (name, _, required) in known.attributes {
             if *required && node.attribute(*name).is_none() {
                 let message = format!("{} has no attribute `{name}`", this(node));
-                self.report(Finding::error("missing_attribute", message), path, place::of_node(node));
+                self.report(Finding::error("missing_attribute", message), path, self.places.of_node(node));
             }
         }
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
-            let (name, at) = (attribute.name(), place::of_attribute(node, attribute));
+            let (name, at) = (attribute.name(), self.places.of_attribute(attribute));
             let path = format!("{path}.{name}");
             self.places.insert(path.clone(), at);
             match known.attributes.iter().find(|(n, _, _)| *n == name) {
@@ -269,7 +288,7 @@ impl Checker<'_> {
                 None => {
                     let finding = Finding::warning("unknown_attribute", format!("unknown attribute `{name}` of {}", this(node)))
                         .with_hint_from(suggestion(name, known.attributes.iter().map(|(n, _, _)| *n)));
-                    self.report(finding, &path, at);
+                    self.report_unknown((known.name, name), finding, &path, at);
                 }
             }
         }

@@ -172,12 +172,12 @@ pub struct Mimic {
 
 /// Reads a URDF text; `file` is its name in messages.
 ///
-/// Gives the robot unless there is an error among the findings. `--set` changes are made with [`Robot::set`], and judged with
-/// [`Robot::check`].
+/// Gives the robot wherever its tree and its numbers can be read, even where [`Robot::check`] finds numbers that are physically
+/// impossible: ask the findings for errors. Changes are made with [`Robot::set`], and judged by [`Robot::check`].
 pub fn read(file: &str, text: &str) -> (Option<Robot>, Findings) {
     let document = match place::parse(file, text) {
         Ok(document) => document,
-        Err(finding) => return (None, finding.into()),
+        Err(findings) => return (None, findings),
     };
     let mut places = Places::new(file, text);
     let mut findings = grammar::check(&document, &mut places);
@@ -186,16 +186,15 @@ pub fn read(file: &str, text: &str) -> (Option<Robot>, Findings) {
     let Some(order) = order.filter(|_| !findings.has_errors()) else {
         return (None, findings.sorted());
     };
-    let robot = match convert::robot(text, &skeleton, order, places) {
+    let robot = match convert::robot(file, text, &skeleton, order, places) {
         Ok(robot) => robot,
-        Err(finding) => {
-            findings.push(finding.in_file(file));
+        Err(refusal) => {
+            findings.extend(refusal);
             return (None, findings.sorted());
         }
     };
     findings.extend(robot.check());
-    let good = !findings.has_errors();
-    (good.then_some(robot), findings.sorted())
+    (Some(robot), findings.sorted())
 }
 
 impl Robot {

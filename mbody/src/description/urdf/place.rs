@@ -1,6 +1,6 @@
 //! Where entries stand in the text.
 
-use crate::description::finding::Finding;
+use crate::description::finding::{Finding, Findings};
 use roxmltree::{Attribute, Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
@@ -12,12 +12,31 @@ const DEEPEST: usize = 64;
 pub(super) struct Places {
     file: String,
     text: String,
+    /// Offset at which each line begins: looking a position up must not read the text from its start.
+    lines: Vec<usize>,
     at: HashMap<String, (usize, usize)>,
 }
 
 impl Places {
     pub fn new(file: &str, text: &str) -> Self {
-        Self { file: file.to_string(), text: text.to_string(), at: HashMap::new() }
+        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(k, _)| k + 1)).collect();
+        Self { file: file.to_string(), text: text.to_string(), lines, at: HashMap::new() }
+    }
+
+    /// Line and column of an element.
+    pub fn of_node(&self, node: Node) -> (usize, usize) {
+        self.position(node.range().start)
+    }
+
+    /// Line and column of an attribute.
+    pub fn of_attribute(&self, attribute: Attribute) -> (usize, usize) {
+        self.position(attribute.range().start)
+    }
+
+    fn position(&self, offset: usize) -> (usize, usize) {
+        let line = self.lines.partition_point(|start| *start <= offset).max(1);
+        let before = self.text.get(self.lines[line - 1]..offset).unwrap_or_default();
+        (line, before.chars().count() + 1)
     }
 
     /// Remembers where an entry stands; the first of several of the same path counts.
@@ -45,23 +64,8 @@ impl Places {
     }
 }
 
-/// Line and column of an element.
-pub(super) fn of_node(node: Node) -> (usize, usize) {
-    position(node.document(), node.range().start)
-}
-
-/// Line and column of an attribute.
-pub(super) fn of_attribute(node: Node, attribute: Attribute) -> (usize, usize) {
-    position(node.document(), attribute.range().start)
-}
-
-fn position(document: &Document, offset: usize) -> (usize, usize) {
-    let at = document.text_pos_at(offset);
-    (at.row as usize, at.col as usize)
-}
-
 /// Reads XML whose outermost element is `<robot>`.
-pub(super) fn parse<'a>(file: &str, text: &'a str) -> Result<Document<'a>, Finding> {
+pub(super) fn parse<'a>(file: &str, text: &'a str) -> Result<Document<'a>, Findings> {
     // far below what exhausts memory, far above any machine
     let options = ParsingOptions { nodes_limit: 2_000_000, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| {
@@ -69,11 +73,12 @@ pub(super) fn parse<'a>(file: &str, text: &'a str) -> Result<Document<'a>, Findi
         let message = format!("this is not XML: {}", without_position(&e.to_string()));
         let finding = Finding::error("not_xml", message).in_file(file).at_line(text, at.row as usize, at.col as usize);
         let xacro = text.contains("xacro:");
-        if xacro { finding.with_hint("this looks like xacro; expand it to plain URDF first") } else { finding }
+        Findings::from(if xacro { finding.with_hint("this looks like xacro; expand it to plain URDF first") } else { finding })
     })?;
     let root = document.root_element();
-    let (line, column) = of_node(root);
-    let refuse = |code, message: String| Err(Finding::error(code, message).in_file(file).at_line(text, line, column));
+    let at = document.text_pos_at(root.range().start);
+    let (line, column) = (at.row as usize, at.col as usize);
+    let refuse = |code, message: String| Err(Finding::error(code, message).in_file(file).at_line(text, line, column).into());
     if root.tag_name().name() != "robot" {
         return refuse("not_urdf", format!("the outermost element is `<{}>`, expected `<robot>`", root.tag_name().name()));
     }

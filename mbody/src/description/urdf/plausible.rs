@@ -4,16 +4,17 @@
 //! the sum of the two others.
 
 use super::{JointKind, Link, Robot, UrdfJoint};
-use crate::description::finding::{Finding, Findings};
+use crate::description::finding::{Finding, Findings, Severity};
+use crate::spatial::{MassProperties, Pose};
 use std::collections::HashMap;
 
 /// Share of the largest principal moment by which rounding may break the inequalities: tables print two or three digits.
 const ROUNDING: f64 = 0.01;
 
 pub(super) fn check(robot: &Robot) -> Findings {
-    let links = robot.links.iter().flat_map(|link| [mass(link), inertia(link)]);
-    let joints = robot.joints.iter().flat_map(|joint| [axis(joint), limits(joint)]);
-    links.chain(joints).flatten().chain(massless(robot)).collect()
+    let links = robot.links.iter().filter_map(mass);
+    let joints = robot.joints.iter().flat_map(|joint| [axis(joint), limits(joint)]).flatten();
+    links.chain(joints).chain(inertia(robot)).chain(massless(robot)).collect()
 }
 
 fn mass(link: &Link) -> Option<Finding> {
@@ -24,19 +25,68 @@ fn mass(link: &Link) -> Option<Finding> {
     })
 }
 
-fn inertia(link: &Link) -> Option<Finding> {
-    let [a, b, c] = link.mass?.principal_moments();
-    let allowed = ROUNDING * c.abs();
-    let reason = if a < -allowed {
-        "a moment of inertia cannot be negative"
-    } else if a + b < c - allowed {
-        "the largest exceeds the sum of the others, which no body can have"
-    } else {
-        return None;
+/// What no body can have, of the links one by one and of those that fixed joints keep together.
+///
+/// Only the whole that is kept together enters the equations of motion, so an impossible part of a possible whole is a warning.
+fn inertia(robot: &Robot) -> Vec<Finding> {
+    let whole = wholes(robot);
+    let judge = |(link, whole): (&Link, &MassProperties)| {
+        let own = link.mass?;
+        let reason = impossible(&own)?;
+        let severity = if impossible(whole).is_some() { Severity::Error } else { Severity::Warning };
+        let [a, b, c] = rounded_moments(&own);
+        let message = format!("link `{}` has principal moments of inertia of {a:.3e}, {b:.3e}, {c:.3e} kg m²: {reason}", link.name);
+        let path = format!("link.{}.inertial.inertia", link.name);
+        let hint = match severity {
+            Severity::Error => "products of inertia are entered with their sign, `ixy` = −∫ x y dm",
+            _ => "together with what is fixed to it, it is a possible body",
+        };
+        Some(Finding::new(severity, "impossible_inertia", message).at_path(path).with_hint(hint))
     };
-    let message = format!("link `{}` has principal moments of inertia of {a:.4e}, {b:.4e}, {c:.4e} kg m²: {reason}", link.name);
-    let finding = Finding::error("impossible_inertia", message).at_path(format!("link.{}.inertial.inertia", link.name));
-    Some(finding.with_hint("products of inertia are entered with their sign, `ixy` = −∫ x y dm"))
+    robot.links.iter().zip(&whole).filter_map(judge).collect()
+}
+
+/// Why no body has these principal moments.
+fn impossible(body: &MassProperties) -> Option<&'static str> {
+    let [a, b, c] = rounded_moments(body);
+    let allowed = ROUNDING * c.abs();
+    if a < -allowed {
+        Some("a moment of inertia cannot be negative")
+    } else if a + b < c - allowed {
+        Some("the largest exceeds the sum of the others, which no body can have")
+    } else {
+        None
+    }
+}
+
+/// Principal moments without what the arithmetic leaves of a zero.
+fn rounded_moments(body: &MassProperties) -> [f64; 3] {
+    let moments = body.principal_moments();
+    let scale = moments.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    moments.map(|m| if m.abs() < 1e-12 * scale { 0.0 } else { m })
+}
+
+/// For each link, everything that fixed joints keep together with it, described in some common frame.
+fn wholes(robot: &Robot) -> Vec<MassProperties> {
+    let number = numbers(robot);
+    // the link that stands for the group, and the pose of each link in it
+    let mut group: Vec<(usize, Pose<f64>)> = vec![(0, Pose::identity())];
+    for (k, joint) in robot.joints.iter().enumerate() {
+        let (leader, pose) = group[number[joint.parent.as_str()]];
+        let fixed = joint.kind == JointKind::Fixed;
+        group.push(if fixed { (leader, pose * joint.origin) } else { (k + 1, Pose::identity()) });
+    }
+    let mut whole = vec![MassProperties::NONE; robot.links.len()];
+    for (link, (leader, pose)) in robot.links.iter().zip(&group) {
+        if let Some(own) = link.mass {
+            whole[*leader] = whole[*leader].welded_with(&own.in_parent(pose));
+        }
+    }
+    group.iter().map(|(leader, _)| whole[*leader]).collect()
+}
+
+fn numbers(robot: &Robot) -> HashMap<&str, usize> {
+    robot.links.iter().enumerate().map(|(k, l)| (l.name.as_str(), k)).collect()
 }
 
 fn axis(joint: &UrdfJoint) -> Option<Finding> {
@@ -58,7 +108,7 @@ fn limits(joint: &UrdfJoint) -> Option<Finding> {
 
 /// Joints that move nothing with mass; of several in a row, the one nearest to the root.
 fn massless(robot: &Robot) -> Vec<Finding> {
-    let number: HashMap<&str, usize> = robot.links.iter().enumerate().map(|(k, l)| (l.name.as_str(), k)).collect();
+    let number = numbers(robot);
     // tree order: children come after their parents, so one pass backwards adds everything up
     let mut has_mass: Vec<bool> = robot.links.iter().map(has_mass).collect();
     for (k, joint) in robot.joints.iter().enumerate().rev() {

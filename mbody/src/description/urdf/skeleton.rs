@@ -1,8 +1,9 @@
 //! Who carries whom: names, parents and children, before any number is looked at.
 
 use super::JointKind;
-use super::place::{self, Places};
-use crate::description::finding::{Finding, Findings, names, suggestion};
+use super::place::Places;
+use crate::description::finding::{Finding, Findings, suggestion};
+use crate::description::nearest::names;
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
 
@@ -20,7 +21,7 @@ pub(super) struct SkeletonLink {
 
 pub(super) struct SkeletonJoint {
     pub name: String,
-    kind: Option<JointKind>,
+    pub kind: Option<JointKind>,
     type_name: String,
     pub parent: String,
     pub child: String,
@@ -35,6 +36,7 @@ pub(super) struct TreeOrder {
     pub joints: Vec<usize>,
 }
 
+/// Values of the attribute `type`.
 const KINDS: [(&str, JointKind); 7] = [
     ("fixed", JointKind::Fixed),
     ("revolute", JointKind::Revolute),
@@ -60,7 +62,7 @@ impl Skeleton {
         let links = elements("link").map(|node| SkeletonLink {
             name: text(Some(node), "name"),
             has_inertial: child(node, "inertial").is_some(),
-            at: place::of_node(node),
+            at: places.of_node(node),
         });
         let joints = elements("joint").map(|node| {
             let type_name = text(Some(node), "type");
@@ -72,7 +74,7 @@ impl Skeleton {
                 child: text(child(node, "child"), "link"),
                 mimic: child(node, "mimic").and_then(|m| m.attribute("joint")).map(str::to_string),
                 has_limit: child(node, "limit").is_some(),
-                at: place::of_node(node),
+                at: places.of_node(node),
             }
         });
         let skeleton = Self { links: links.collect(), joints: joints.collect() };
@@ -158,9 +160,13 @@ impl<'a> Checker<'a> {
                 None => error(format!("joint `{}` mimics joint `{leader}`, which does not exist", joint.name))
                     .with_hint_from(suggestion(leader, joints.iter().filter(|j| single(j)).map(|j| j.name.as_str()))),
                 Some(_) if *leader == joint.name => error(format!("joint `{leader}` mimics itself")),
+                Some(_) if joint.kind == Some(JointKind::Fixed) => {
+                    Finding::note("unused_mimic", format!("joint `{}` mimics `{leader}`, but it is fixed: this is not used", joint.name))
+                        .at_path(&path)
+                }
                 Some(other) if !single(other) || !single(joint) => {
-                    let both = [joint, other].into_iter().find(|j| !single(j)).map_or("", |j| j.name.as_str());
-                    error(format!("joint `{}` mimics `{leader}`, but `{both}` has no single coordinate", joint.name))
+                    let many = if single(other) { &joint.name } else { leader };
+                    error(format!("joint `{}` mimics `{leader}`, but `{many}` has no single coordinate", joint.name))
                 }
                 Some(_) => match loop_from(&joint.name, |name| of.get(name)?.mimic.as_deref()) {
                     // a loop is reported once, at the first of its joints

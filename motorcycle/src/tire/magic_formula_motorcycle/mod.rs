@@ -14,7 +14,7 @@
 //!
 //! The publication has y to the right: with the slip of our axes `(Fy, Mz)(a, γ) = (Fy, Mz)_published(a, −γ)`.
 //!
-//! Source: R. S. Sharp, S. Evangelou, D. J. N. Limebeer, Advances in the modelling of motorcycle dynamics, Multibody System
+//! Source: R. S. Sharp, S. Evangelou, D. J. N. Limebeer, "Advances in the modelling of motorcycle dynamics", Multibody System
 //! Dynamics 12 (2004) 251–283, read through public transcriptions; H. B. Pacejka, *Tire and Vehicle Dynamics*, section 10.6.
 //! Range: loads from 0 to about twice the nominal load, camber to about 1 rad. Beyond, curvature factors may exceed 1 and the
 //! curves turn round (the trail of the 160/70 set does so above 2300 N). Both factors |γ| leave a kink in Mz at zero camber when

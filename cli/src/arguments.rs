@@ -1,0 +1,111 @@
+//! Arguments that several commands share, and how their values are read.
+
+use crate::Failure;
+use crate::output::{self, Angles, Axes};
+use clap::Args;
+use mbody::description::quantity::{Dimensioned, parse_quantity};
+use std::path::PathBuf;
+
+/// Which model, and what is changed in it.
+#[derive(Clone, Debug, Args)]
+pub struct ModelArguments {
+    /// Bundled name (see `fastbike info`), or the path of a .yaml description or a plain .urdf
+    pub model: String,
+    /// Override an entry of the description: `element.parameter=value`, `joint.NAME.locked=true`, `link.NAME.mass=9kg` (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// How results are shown and kept.
+#[derive(Clone, Debug, Args)]
+pub struct OutputArguments {
+    /// Format on standard output: table, json or csv
+    #[arg(long, default_value = "table", value_parser = format)]
+    pub format: &'static output::Kind,
+    /// Axes of everything printed: iso (x forward, y left, z up) or sae (x forward, y right, z down)
+    #[arg(long, default_value = "iso", value_parser = axes)]
+    pub axes: Axes,
+    /// Show angles of tables in radians instead of degrees
+    #[arg(long)]
+    pub radians: bool,
+    /// Figure to write, .svg or .png
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// Folder to keep the run in: inputs, version, statistics, results and figures
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+impl OutputArguments {
+    /// Unit of angles in tables.
+    pub fn angles(&self) -> Angles {
+        if self.radians { Angles::Radians } else { Angles::Degrees }
+    }
+}
+
+fn format(text: &str) -> Result<&'static output::Kind, String> {
+    let known: Vec<&str> = output::KINDS.iter().map(|k| k.name).collect();
+    output::kind(text).ok_or_else(|| format!("expected one of {}", known.join(", ")))
+}
+
+fn axes(text: &str) -> Result<Axes, String> {
+    Axes::from_name(text).ok_or_else(|| "expected `iso` or `sae`".to_owned())
+}
+
+/// One value or several: `30`, `108km/h`, `10..60:2` (start..end:step), `10,20,30`. Values are SI.
+///
+/// # Errors
+/// Names the part that cannot be read, the unit that does not fit, or a step that leads nowhere.
+pub fn sweep<D: Dimensioned>(option: &str, text: &str) -> Result<Vec<f64>, Failure> {
+    let wrong = |why: String| Failure::Argument(format!("--{option} {text}: {why}"));
+    let one = |part: &str| {
+        parse_quantity(part.trim(), D::DIMENSION).map_err(|e| {
+            let hint = e.hint().map(|h| format!(" ({h})")).unwrap_or_default();
+            wrong(format!("{e}{hint}"))
+        })
+    };
+    if text.contains(',') {
+        return text.split(',').map(one).collect();
+    }
+    let Some((start, rest)) = text.split_once("..") else {
+        return Ok(vec![one(text)?]);
+    };
+    let Some((end, step)) = rest.split_once(':') else {
+        return Err(wrong("a range is written start..end:step, for example 10..60:2".to_owned()));
+    };
+    let (start, end, step) = (one(start)?, one(end)?, one(step)?);
+    if step == 0.0 || (end - start) * step < 0.0 {
+        return Err(wrong("the step does not lead from the start to the end".to_owned()));
+    }
+    // the end belongs to the range where a whole number of steps meets it
+    let count = ((end - start) / step + 1e-9).floor();
+    if count > 1e6 {
+        return Err(wrong(format!("that is {count:.0} points; at most 1000000 are accepted")));
+    }
+    Ok((0..=count as usize).map(|i| start + i as f64 * step).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mbody::description::quantity::dimension::{Angle, Speed};
+
+    #[test]
+    fn values_lists_and_ranges_are_read_with_units() {
+        assert_eq!(sweep::<Speed>("speed", "108km/h").unwrap(), [30.0]);
+        assert_eq!(sweep::<Speed>("speed", "10,20").unwrap(), [10.0, 20.0]);
+        assert_eq!(sweep::<Speed>("speed", "10..60:25").unwrap(), [10.0, 35.0, 60.0]);
+        assert_eq!(sweep::<Speed>("speed", "0..1:0.1").unwrap().len(), 11);
+        assert_eq!(sweep::<Speed>("speed", "-1..-3:-1").unwrap(), [-1.0, -2.0, -3.0]);
+        assert!((sweep::<Angle>("lean", "0deg..50deg:5deg").unwrap()[10] - 50f64.to_radians()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn wrong_values_say_what_was_expected() {
+        let message = |text| sweep::<Speed>("speed", text).unwrap_err().to_string();
+        assert!(message("30kg").contains("a speed"), "{}", message("30kg"));
+        assert!(message("10..60").contains("start..end:step"));
+        assert!(message("10..60:-1").contains("does not lead"));
+        assert!(message("fast").contains("--speed fast"));
+    }
+}

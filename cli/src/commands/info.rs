@@ -1,0 +1,148 @@
+//! `info`: what a model consists of; without a model, the bundled ones; with `--kinds`, every kind of element.
+
+use super::{Kind, print, read};
+use crate::arguments::ModelArguments;
+use crate::library::{Source, bundled_models};
+use crate::{Context, Exit, Failure, model};
+use clap::{ArgMatches, Args, Command};
+use mbody::assembly::{Assembled, BaseDescription};
+use mbody::description::Library;
+use mbody::model::BodyIndex;
+use problem::{Signal, UnknownKind};
+use std::fmt::Write;
+
+/// Row of the table of commands.
+pub const KIND: Kind = Kind { name: "info", command, run };
+
+#[derive(Debug, Args)]
+struct Arguments {
+    /// Bundled name, or the path of a .yaml description or a plain .urdf; left out: lists the bundled models
+    model: Option<String>,
+    /// Override an entry of the description (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// List every kind of element with its parameters and an example
+    #[arg(long)]
+    kinds: bool,
+    /// Put a plain URDF on a free base
+    #[arg(long)]
+    floating: bool,
+}
+
+fn command(command: Command) -> Command {
+    Arguments::augment_args(command).about("Bodies, joints, degrees of freedom, elements, signals and mass properties of a model")
+}
+
+fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
+    let arguments: Arguments = read(matches)?;
+    let text = match (&arguments.model, arguments.kinds) {
+        (_, true) => kinds(context),
+        (None, false) => bundled(context)?,
+        (Some(name), false) => {
+            let model = ModelArguments { model: name.clone(), set: arguments.set.clone() };
+            let base = if arguments.floating { BaseDescription::Free } else { BaseDescription::Fixed };
+            about(&model::load_on(&model, context, base, 9.81)?.assembled)
+        }
+    };
+    print(text.as_bytes())?;
+    Ok(Exit::Done)
+}
+
+/// The bundled models with their names.
+fn bundled(context: &Context) -> Result<String, Failure> {
+    let mut text = String::from("bundled models (fastbike info MODEL tells more):\n");
+    for name in bundled_models() {
+        let source = Source::find(name)?;
+        let about = source.text(&source.file).and_then(|t| t.lines().find_map(|l| l.strip_prefix("name:").map(|n| n.trim().to_owned())));
+        let _ = writeln!(text, "  {name:<14} {}", about.unwrap_or_default());
+    }
+    let _ = writeln!(text, "{} kinds of elements (fastbike info --kinds)", context.kinds.elements().len());
+    Ok(text)
+}
+
+/// Every kind with its parameters and an example.
+fn kinds(context: &Context) -> String {
+    let schema = mbody::assembly::schema(&context.kinds);
+    let mut text = String::new();
+    for kind in context.kinds.elements() {
+        let _ = writeln!(text, "{} — {}", kind.name, kind.about);
+        let choices = schema["properties"]["elements"]["additionalProperties"]["oneOf"].as_array();
+        let choice = choices.and_then(|c| c.iter().find(|c| c["properties"].get(kind.name).is_some()));
+        let parameters = choice.map(|c| resolved(&schema, &c["properties"][kind.name]));
+        if let Some(properties) = parameters.and_then(|p| p["properties"].as_object()) {
+            for (key, entry) in properties {
+                let unit = entry.get("quantity").and_then(|q| q.as_str()).map(|u| format!(" [{u}]")).unwrap_or_default();
+                let sentence = entry.get("description").and_then(|d| d.as_str()).unwrap_or_default().replace('\n', " ");
+                let _ = writeln!(text, "    {key}{unit}: {sentence}");
+            }
+        }
+        let _ = writeln!(text, "    example: {}: {}\n", kind.name, kind.example.split_whitespace().collect::<Vec<_>>().join(" "));
+    }
+    text
+}
+
+/// Follows a reference within the schema.
+fn resolved<'a>(schema: &'a serde_json::Value, entry: &'a serde_json::Value) -> &'a serde_json::Value {
+    let target = entry.get("$ref").and_then(|r| r.as_str()).and_then(|r| r.strip_prefix('#')).and_then(|p| schema.pointer(p));
+    target.unwrap_or(entry)
+}
+
+fn about(assembled: &Assembled) -> String {
+    let system = &assembled.system;
+    let tree = system.model();
+    let mut text = format!("{}\n", assembled.name);
+    if !assembled.about.is_empty() {
+        let _ = writeln!(text, "{}", assembled.about.trim());
+    }
+    let (nq, nv) = (tree.layout().nq(), tree.layout().nv());
+    let _ = writeln!(
+        text,
+        "\n{} moving bodies, {nv} degrees of freedom ({nq} coordinates, {} tree velocities, {} followers), 0 loops, {:.6} kg",
+        tree.moving().count(),
+        tree.layout().tree_nv,
+        tree.layout().followers.len(),
+        tree.total_mass()
+    );
+    let _ = writeln!(text, "\nbodies and joints (in the order of q and v)");
+    for body in tree.moving() {
+        let b = tree.body(body);
+        let parent = if b.parent == BodyIndex::WORLD { "world" } else { &tree.body(b.parent).name };
+        let kind = format!("{:?}", b.joint);
+        let kind = kind.split([' ', '{']).next().unwrap_or_default();
+        let c = b.mass.center;
+        let _ = writeln!(
+            text,
+            "  {:<18} joint {:<16} {kind:<12} on {parent:<16} {:>10.4} kg  center ({:.4}, {:.4}, {:.4}) m",
+            b.name, b.joint_name, b.mass.mass, c.x, c.y, c.z
+        );
+    }
+    let welded = tree.frames().iter().filter(|f| tree.bodies().iter().all(|b| b.name != f.name));
+    let welded: Vec<String> = welded.map(|f| format!("{} (on {})", f.name, tree.body(f.body).name)).collect();
+    if !welded.is_empty() {
+        let _ = writeln!(text, "  welded: {}", welded.join(", "));
+    }
+    if !assembled.kinds.is_empty() {
+        let _ = writeln!(text, "\nelements");
+    }
+    for (name, kind) in &assembled.kinds {
+        let _ = writeln!(text, "  {name:<22} {kind}");
+    }
+    for (element, joint) in &assembled.left_out {
+        let _ = writeln!(text, "  {element:<22} left out: joint `{joint}` is locked");
+    }
+    let section = |text: &mut String, title: &str, signals: Vec<&Signal>| {
+        if !signals.is_empty() {
+            let _ = writeln!(text, "\n{title}");
+        }
+        for s in signals {
+            let _ = writeln!(text, "  {:<34} {:<8} {}", s.name, s.unit, s.about);
+        }
+    };
+    let of = |kind: UnknownKind| system.unknowns().iter().filter(move |u| u.kind == kind).map(|u| &u.signal).collect::<Vec<_>>();
+    section(&mut text, "coordinates", of(UnknownKind::Position));
+    section(&mut text, "velocities", of(UnknownKind::Velocity));
+    section(&mut text, "element states", of(UnknownKind::State));
+    section(&mut text, "inputs", system.inputs().iter().map(|i| &i.signal).collect());
+    section(&mut text, "outputs", system.outputs().iter().collect());
+    text
+}

@@ -1,0 +1,92 @@
+//! `map`: steady states over a grid of two prescribed quantities, as a contour figure.
+
+use super::trim::{OwnedReport, angle_unit, exit, report};
+use super::{Kind, print, read};
+use crate::arguments::{ModelArguments, OutputArguments};
+use crate::output::Options;
+use crate::plan::TrimArguments;
+use crate::plot::{Axis, Contour, Figure, Node};
+use crate::{Context, Exit, Failure, keep, model, steady};
+use clap::{ArgMatches, Args, Command};
+
+/// Row of the table of commands.
+pub const KIND: Kind = Kind { name: "map", command, run };
+
+#[derive(Debug, Args)]
+struct Arguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    #[command(flatten)]
+    trim: TrimArguments,
+    #[command(flatten)]
+    output: OutputArguments,
+    /// Signal to draw
+    #[arg(long, value_name = "SIGNAL", default_value = "steer.torque")]
+    show: String,
+}
+
+fn command(command: Command) -> Command {
+    Arguments::augment_args(command)
+        .about("Steady states over a grid of two swept options, as a contour figure")
+        .after_help("Example:\n  fastbike map gsxr1000 --speed 10..60:2 --curvature 0..0.05:0.002 --show steer.torque --plot torque.svg")
+}
+
+fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
+    let arguments: Arguments = read(matches)?;
+    let request = arguments.trim.request()?;
+    let loaded = model::load(&arguments.model, context)?;
+    let steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "map")?;
+    let report = report("map", &loaded.name, std::slice::from_ref(&arguments.show), steady)?.in_axes(arguments.output.axes);
+    let figure = arguments.output.plot.is_some().then(|| figure(&report, &arguments.show)).transpose()?;
+    keep::results(&arguments.output, &report, figure.as_ref(), &arguments.model)?;
+    let mut text = Vec::new();
+    let options = Options { palette: context.palette, angles: arguments.output.angles() };
+    let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
+    written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
+    print(&text)?;
+    for warning in &report.warnings {
+        eprintln!("warning: {warning}");
+    }
+    Ok(exit(&report))
+}
+
+/// Contours over the two swept quantities: the turn across, the speed upward, as the field draws it.
+fn figure(report: &OwnedReport, show: &str) -> Result<Figure, Failure> {
+    let given = &report.steady.given;
+    let distinct = |k: usize| {
+        let mut values: Vec<f64> = Vec::new();
+        for point in &report.points {
+            if !values.contains(&point.given[k]) {
+                values.push(point.given[k]);
+            }
+        }
+        values
+    };
+    let axes: Vec<(usize, Vec<f64>)> = (0..given.len()).map(|k| (k, distinct(k))).filter(|(_, v)| v.len() > 1).collect();
+    let [(up, rows), (across, columns)] = &axes[..] else {
+        return Err(Failure::Argument(format!(
+            "a map needs two swept options, found {}; for example --speed 10..60:2 --lean 0deg..50deg:2deg",
+            axes.len()
+        )));
+    };
+    let Some(signal) = report.signal(show) else {
+        return Err(Failure::Argument(format!("--show {show}: no such signal")));
+    };
+    let (value_factor, value_unit) = angle_unit(&report.steady.signals[signal].unit);
+    let mut nodes = Vec::with_capacity(rows.len() * columns.len());
+    for row in rows {
+        for column in columns {
+            let point = report.points.iter().find(|p| p.given[*up] == *row && p.given[*across] == *column);
+            nodes.push(match point {
+                Some(p) if p.ending == problem::Ending::Reached => Node::Value(p.value(signal) * value_factor),
+                Some(p) => Node::Infeasible(p.ending.name().to_owned()),
+                None => Node::Infeasible("not_converged".to_owned()),
+            });
+        }
+    }
+    let scaled = |values: &[f64], k: usize| values.iter().map(|v| v * angle_unit(&given[k].unit).0).collect::<Vec<f64>>();
+    let axis = |k: usize| Axis::new(given[k].name.replace('_', " "), angle_unit(&given[k].unit).1);
+    let title = format!("{} of {} in steady turns", show, report.view().model);
+    let value = Axis::new(show, value_unit);
+    Ok(Figure::Contour(Contour::new(title, (axis(*across), scaled(columns, *across)), (axis(*up), scaled(rows, *up)), value, nodes)?))
+}

@@ -1,0 +1,181 @@
+//! `trim`: steady state by inverse dynamics.
+
+use super::{Kind, print, read};
+use crate::arguments::{ModelArguments, OutputArguments};
+use crate::output::{self, Options, Report};
+use crate::plan::TrimArguments;
+use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
+use crate::steady::{self, Steady};
+use crate::{Context, Exit, Failure, keep, model};
+use clap::{ArgMatches, Args, Command};
+use problem::Ending;
+
+/// Row of the table of commands.
+pub const KIND: Kind = Kind { name: "trim", command, run };
+
+#[derive(Debug, Args)]
+struct Arguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    #[command(flatten)]
+    trim: TrimArguments,
+    #[command(flatten)]
+    output: OutputArguments,
+    /// Signals in the table of a sweep (repeatable); the figure shows them too
+    #[arg(long, value_name = "SIGNAL")]
+    show: Vec<String>,
+}
+
+fn command(command: Command) -> Command {
+    Arguments::augment_args(command).about("Steady state: static, straight, cornering, braking or accelerating, top speed").after_help(
+        "Examples:\n  fastbike trim gsxr1000 --speed 30 --lean 35deg\n  fastbike trim gsxr1000 --speed 108km/h --lateral-acceleration -5\n  \
+         fastbike trim ref11 --speed 10..60:5 --lean 20deg --plot lean.svg\n  \
+         fastbike trim gsxr1000 --speed 40 --acceleration -6 --front-brake-share 0.8",
+    )
+}
+
+fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
+    let mut arguments: Arguments = read(matches)?;
+    gear(&mut arguments);
+    let request = arguments.trim.request()?;
+    let loaded = model::load(&arguments.model, context)?;
+    let mut steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "trim")?;
+    steady
+        .warnings
+        .extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
+    let report = report("trim", &loaded.name, &arguments.show, steady)?.in_axes(arguments.output.axes);
+    let mut text = Vec::new();
+    let options = Options { palette: context.palette, angles: arguments.output.angles() };
+    let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
+    written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
+    let figure = arguments.output.plot.is_some().then(|| figure(&report)).transpose()?;
+    keep::results(&arguments.output, &report, figure.as_ref(), &arguments.model)?;
+    print(&text)?;
+    for warning in &report.warnings {
+        eprintln!("warning: {warning}");
+    }
+    Ok(exit(&report))
+}
+
+/// `--gear` is a parameter of the element `engine`.
+fn gear(arguments: &mut Arguments) {
+    if let Some(gear) = arguments.trim.gear {
+        arguments.model.set.push(format!("engine.gear={gear}"));
+    }
+}
+
+/// Done where at least one point was reached.
+pub fn exit(report: &OwnedReport) -> Exit {
+    match report.points.iter().any(|p| p.ending == Ending::Reached) {
+        true => Exit::Done,
+        false => Exit::Unreached,
+    }
+}
+
+/// A report that owns its names.
+#[derive(Debug)]
+pub struct OwnedReport {
+    command: &'static str,
+    model: String,
+    /// What was computed.
+    pub steady: Steady,
+    axes: output::Axes,
+    shown: Vec<usize>,
+    /// Points in the axes asked for.
+    pub points: Vec<output::Point>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+impl OwnedReport {
+    /// As the writers want it.
+    pub fn view(&self) -> Report<'_> {
+        let mut report = Report::new(self.command, &self.model, self.steady.given.clone(), &self.steady.signals);
+        report.points = self.points.clone();
+        report.shown = self.shown.clone();
+        report.warnings = self.warnings.clone();
+        report.axes = self.axes;
+        report
+    }
+
+    /// Refers all values to other axes.
+    #[must_use]
+    pub fn in_axes(mut self, axes: output::Axes) -> Self {
+        let turned = self.view().in_axes(axes).points;
+        self.points = turned;
+        self.axes = axes;
+        self
+    }
+
+    /// Index of a signal.
+    pub fn signal(&self, name: &str) -> Option<usize> {
+        self.steady.signals.iter().position(|s| s.name == name)
+    }
+}
+
+/// Makes a report; `show` names the signals of the table.
+pub fn report(command: &'static str, model: &str, show: &[String], mut steady: Steady) -> Result<OwnedReport, Failure> {
+    let mut shown = Vec::new();
+    for name in show {
+        match steady.signals.iter().position(|s| s.name == *name) {
+            Some(i) => shown.push(i),
+            None => {
+                let names = steady.signals.iter().map(|s| s.name.as_str());
+                let hint = mbody::description::finding::suggestion(name, names).map(|h| format!(" ({h})")).unwrap_or_default();
+                return Err(Failure::Argument(format!("--show {name}: no such signal{hint}")));
+            }
+        }
+    }
+    let points = std::mem::take(&mut steady.points);
+    let warnings = std::mem::take(&mut steady.warnings);
+    Ok(OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, warnings })
+}
+
+/// Lines over the quantity that is swept, one panel per shown signal.
+fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
+    let given = &report.steady.given;
+    let varies = |k: usize| report.points.windows(2).any(|w| w[0].given[k] != w[1].given[k]);
+    let swept: Vec<usize> = (0..given.len()).filter(|&k| varies(k)).collect();
+    let Some(&x) = swept.first() else {
+        return Err(Failure::Argument("--plot needs a sweep, for example --speed 10..60:2".to_owned()));
+    };
+    let defaults = ["steer.torque", "steer.angle", "chassis.roll", "front_tire.normal_force", "rear_tire.normal_force"];
+    let shown: Vec<usize> = match report.shown.is_empty() {
+        true => defaults.iter().filter_map(|n| report.signal(n)).collect(),
+        false => report.shown.clone(),
+    };
+    let (factor, unit) = angle_unit(&given[x].unit);
+    let panels = shown.iter().map(|&s| {
+        let signal = &report.steady.signals[s];
+        let (value_factor, value_unit) = angle_unit(&signal.unit);
+        let mut curves: Vec<Curve> = Vec::new();
+        for point in &report.points {
+            // a second swept quantity names the curves
+            let name: Vec<String> = swept[1..].iter().map(|&k| label(&given[k].name, &given[k].unit, point.given[k])).collect();
+            let name = name.join(", ");
+            let at = (point.given[x] * factor, point.value(s) * value_factor);
+            match curves.iter_mut().find(|c| c.name == name) {
+                Some(curve) => curve.points.push(at),
+                None => curves.push(Curve { name, points: vec![at], markers: Markers::WhenFew }),
+            }
+        }
+        LinePanel { y: Axis::new(signal.name.clone(), value_unit), curves }
+    });
+    Ok(Figure::Lines(Lines {
+        title: format!("Steady states of {}", report.model),
+        x: Axis::new(given[x].name.replace('_', " "), unit),
+        panels: panels.collect(),
+        bands: Vec::new(),
+    }))
+}
+
+/// Angles are drawn in degrees.
+pub fn angle_unit(unit: &str) -> (f64, String) {
+    if unit == "rad" { (180.0 / std::f64::consts::PI, "deg".to_owned()) } else { (1.0, unit.to_owned()) }
+}
+
+fn label(name: &str, unit: &str, value: f64) -> String {
+    let (factor, unit) = angle_unit(unit);
+    let rounded = (value * factor * 1e6).round() / 1e6;
+    format!("{} {rounded} {unit}", name.replace('_', " "))
+}

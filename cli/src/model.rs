@@ -1,0 +1,68 @@
+//! From the MODEL argument to an assembled system.
+
+use crate::arguments::ModelArguments;
+use crate::library::Source;
+use crate::{Context, Failure};
+use mbody::assembly::{Assembled, BaseDescription, Override, assemble, assemble_urdf};
+use mbody::description::Library;
+use mbody::description::finding::{Finding, Findings};
+
+/// An assembled model and what was said about it.
+#[derive(Debug)]
+pub struct Loaded {
+    /// Short name, as typed.
+    pub name: String,
+    /// The system.
+    pub assembled: Assembled,
+    /// Warnings and notes.
+    pub findings: Findings,
+}
+
+/// Splits `PATH=VALUE`.
+pub fn overrides(settings: &[String]) -> Result<Vec<Override>, Failure> {
+    let split = |s: &String| match s.split_once('=') {
+        Some((path, value)) if !path.is_empty() && !value.is_empty() => Ok((path.trim().to_owned(), value.trim().to_owned())),
+        _ => Err(Failure::Argument(format!("`--set {s}` is not of the form PATH=VALUE"))),
+    };
+    settings.iter().map(split).collect()
+}
+
+/// Reads and assembles; nothing is thrown away: the findings come with the system or instead of it.
+pub fn read(model: &str, set: &[String], context: &Context) -> Result<(Option<Assembled>, Findings, Source), Failure> {
+    read_on(model, set, context, BaseDescription::Fixed, 9.81)
+}
+
+/// As [`read`], with the base and the gravity (m/s²) of a plain URDF.
+fn read_on(
+    model: &str,
+    set: &[String],
+    context: &Context,
+    base: BaseDescription,
+    gravity: f64,
+) -> Result<(Option<Assembled>, Findings, Source), Failure> {
+    let source = Source::find(model)?;
+    let overrides = overrides(set)?;
+    let (assembled, findings) = if source.is_urdf() {
+        match source.text(&source.file) {
+            Some(text) => assemble_urdf(&source.file, &text, base, gravity, &overrides),
+            None => (None, Finding::error("missing_file", format!("file `{}` cannot be read as text", source.file)).into()),
+        }
+    } else {
+        assemble(&source.file, &source, &context.kinds, &overrides)
+    };
+    Ok((assembled, findings, source))
+}
+
+/// Reads and assembles, or fails with everything that is wrong.
+pub fn load(arguments: &ModelArguments, context: &Context) -> Result<Loaded, Failure> {
+    load_on(arguments, context, BaseDescription::Fixed, 9.81)
+}
+
+/// As [`load`], with the base and the gravity (m/s²) of a plain URDF.
+pub fn load_on(arguments: &ModelArguments, context: &Context, base: BaseDescription, gravity: f64) -> Result<Loaded, Failure> {
+    let (assembled, findings, source) = read_on(&arguments.model, &arguments.set, context, base, gravity)?;
+    match assembled {
+        Some(assembled) => Ok(Loaded { name: source.name, assembled, findings }),
+        None => Err(Failure::Findings(findings)),
+    }
+}

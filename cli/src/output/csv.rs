@@ -1,0 +1,49 @@
+//! One line per point, SI units and radians.
+//!
+//! The first line names the columns: `given.<name>` for what was prescribed, `ending`, `iterations`, `residual`, then the signals under the
+//! names that `units` lists in the JSON output. There is no line of units, so that every reader of CSV takes the columns as numbers.
+//! A value that is not finite or was not computed is an empty cell.
+
+use super::report::Report;
+use super::{Kind, Options};
+use std::io;
+
+pub(super) const KIND: Kind = Kind { name: "csv", about: "one line per point, SI units and radians", write };
+
+fn write(report: &Report<'_>, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+    let mut table = ::csv::Writer::from_writer(out);
+    let given = report.given.iter().map(|g| format!("given.{}", g.name));
+    let outcome = ["ending", "iterations", "residual"].map(str::to_owned);
+    table.write_record(given.chain(outcome).chain(report.signals.iter().map(|s| s.name.clone())))?;
+    for point in &report.points {
+        let given = (0..report.given.len()).map(|k| cell(point.given.get(k).copied().unwrap_or(f64::NAN)));
+        let outcome = [point.ending.name().to_owned(), point.iterations.to_string(), cell(point.residual)];
+        let values = (0..report.signals.len()).map(|k| cell(point.value(k)));
+        table.write_record(given.chain(outcome).chain(values))?;
+    }
+    table.flush()
+}
+
+/// The shortest text that reads back as the same number.
+fn cell(value: f64) -> String {
+    if value.is_finite() { format!("{value:?}") } else { String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+
+    #[test]
+    fn sweep_is_a_plain_table() {
+        let mut out = Vec::new();
+        write(&sample::sweep(), &Options::default(), &mut out).expect("memory takes everything");
+        let expected = "\
+given.speed,given.lean,ending,iterations,residual,chassis.roll,steer.torque,rear_tire.normal_force
+20.0,0.6,reached,4,1e-12,0.6,-7.125,1623.4567
+30.0,0.6,tire_saturated,17,0.003,0.55,12.0,
+40.0,0.6,not_converged,60,,,,
+";
+        assert_eq!(String::from_utf8(out).expect("text"), expected);
+    }
+}

@@ -1,0 +1,141 @@
+//! One JSON object, SI units and radians, as the command line contract describes it.
+//!
+//! A value that is not finite is `null`; `signals` is empty where nothing was computed.
+
+use super::report::{Point, Report};
+use super::{Kind, Options};
+use problem::Ending;
+use serde_json::{Map, Value, json};
+use std::io;
+
+pub(super) const KIND: Kind = Kind { name: "json", about: "one JSON object, SI units and radians", write };
+
+fn write(report: &Report<'_>, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, &object(report))?;
+    writeln!(out)
+}
+
+/// The report as a JSON value.
+fn object(report: &Report<'_>) -> Value {
+    let units: Map<String, Value> = report.signals.iter().map(|s| (s.name.clone(), json!(s.unit))).collect();
+    let given_units: Map<String, Value> = report.given.iter().map(|g| (g.name.clone(), json!(g.unit))).collect();
+    json!({
+        "fastbike": env!("CARGO_PKG_VERSION"),
+        "command": report.command,
+        "model": report.model,
+        "axes": report.axes.name(),
+        "given_units": given_units,
+        "units": units,
+        "points": report.points.iter().map(|p| point(report, p)).collect::<Vec<_>>(),
+        "warnings": report.warnings,
+    })
+}
+
+fn point(report: &Report<'_>, point: &Point) -> Value {
+    let given: Map<String, Value> = report.given.iter().zip(&point.given).map(|(g, &v)| (g.name.clone(), json!(v))).collect();
+    let signals: Map<String, Value> = report.signals.iter().zip(&point.values).map(|(s, &v)| (s.name.clone(), json!(v))).collect();
+    let mut object = Map::new();
+    object.insert("given".to_owned(), given.into());
+    object.insert("ending".to_owned(), point.ending.name().into());
+    match &point.ending {
+        Ending::Reached => {}
+        Ending::Limit { signal, value, threshold, .. } => {
+            object.insert("limit".to_owned(), json!({ "signal": signal, "value": value, "threshold": threshold }));
+        }
+        Ending::NotConverged { because } => {
+            object.insert("because".to_owned(), json!(because));
+        }
+    }
+    object.insert("iterations".to_owned(), point.iterations.into());
+    object.insert("residual".to_owned(), json!(point.residual));
+    object.insert("signals".to_owned(), signals.into());
+    object.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+
+    fn text(report: &Report<'_>) -> String {
+        let mut out = Vec::new();
+        write(report, &Options::default(), &mut out).expect("memory takes everything");
+        String::from_utf8(out).expect("text").replace(env!("CARGO_PKG_VERSION"), "VERSION")
+    }
+
+    #[test]
+    fn sweep_is_one_object() {
+        let expected = r#"{
+  "fastbike": "VERSION",
+  "command": "trim",
+  "model": "ref11",
+  "axes": "iso",
+  "given_units": {
+    "speed": "m/s",
+    "lean": "rad"
+  },
+  "units": {
+    "chassis.roll": "rad",
+    "steer.torque": "N m",
+    "rear_tire.normal_force": "N"
+  },
+  "points": [
+    {
+      "given": {
+        "speed": 20.0,
+        "lean": 0.6
+      },
+      "ending": "reached",
+      "iterations": 4,
+      "residual": 1e-12,
+      "signals": {
+        "chassis.roll": 0.6,
+        "steer.torque": -7.125,
+        "rear_tire.normal_force": 1623.4567
+      }
+    },
+    {
+      "given": {
+        "speed": 30.0,
+        "lean": 0.6
+      },
+      "ending": "tire_saturated",
+      "limit": {
+        "signal": "rear_tire.friction_use",
+        "value": 1.02,
+        "threshold": 1.0
+      },
+      "iterations": 17,
+      "residual": 0.003,
+      "signals": {
+        "chassis.roll": 0.55,
+        "steer.torque": 12.0,
+        "rear_tire.normal_force": null
+      }
+    },
+    {
+      "given": {
+        "speed": 40.0,
+        "lean": 0.6
+      },
+      "ending": "not_converged",
+      "because": "`steer.angle` and `chassis.roll` move together",
+      "iterations": 60,
+      "residual": null,
+      "signals": {}
+    }
+  ],
+  "warnings": [
+    "front tire outside its fit"
+  ]
+}
+"#;
+        assert_eq!(text(&sample::sweep()), expected);
+    }
+
+    #[test]
+    fn numbers_survive_the_way_through_text() {
+        let read: Value = serde_json::from_str(&text(&sample::corner())).expect("valid JSON");
+        assert_eq!(read["points"][0]["signals"]["chassis.yaw_rate"].as_f64(), Some(sample::YAW_RATE));
+    }
+}

@@ -1,0 +1,77 @@
+//! What a command prints: one report, several formats.
+//!
+//! | format | for | units | angles |
+//! |---|---|---|---|
+//! | `table` | reading | stated beside every value | deg |
+//! | `json` | programs, see the command line contract | SI, stated in `units` | rad |
+//! | `csv` | spreadsheets and data frames | SI | rad |
+
+mod axes;
+mod csv;
+mod json;
+mod number;
+mod palette;
+mod progress;
+mod report;
+#[cfg(test)]
+mod sample;
+mod table;
+mod units;
+
+pub use axes::Axes;
+pub use palette::Palette;
+pub use progress::Progress;
+pub use report::{Given, Point, Report};
+pub use units::{Angles, Shown};
+
+use std::io;
+
+/// A format of standard output.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// Name after `--format`.
+    pub name: &'static str,
+    /// One sentence for the help.
+    pub about: &'static str,
+    /// Writes a report.
+    pub write: Writer,
+}
+
+/// Writes a report in one format.
+pub type Writer = fn(&Report<'_>, &Options, &mut dyn io::Write) -> io::Result<()>;
+
+/// The formats; the first is the default.
+pub const KINDS: &[Kind] = &[table::KIND, json::KIND, csv::KIND];
+
+/// The format with this name.
+pub fn kind(name: &str) -> Option<&'static Kind> {
+    KINDS.iter().find(|kind| kind.name == name)
+}
+
+/// How a report is presented to a reader; formats for programs ignore it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Colors.
+    pub palette: Palette,
+    /// Unit of angles.
+    pub angles: Angles,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_format_writes_every_report() {
+        for kind in KINDS {
+            assert_eq!(super::kind(kind.name).map(|k| k.about), Some(kind.about));
+            for report in [sample::corner(), sample::sweep(), sample::nothing()] {
+                let mut text = Vec::new();
+                (kind.write)(&report, &Options::default(), &mut text).expect("memory takes everything");
+                let text = String::from_utf8(text).expect("text");
+                assert!(text.ends_with('\n') && !text.contains("NaN"), "{}: {text}", kind.name);
+            }
+        }
+        assert!(super::kind("xml").is_none());
+    }
+}

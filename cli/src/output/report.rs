@@ -1,0 +1,93 @@
+//! The result of an analysis at one or several points, before it becomes text.
+
+use super::axes::Axes;
+use problem::{Ending, Signal};
+use std::borrow::Cow;
+
+/// A quantity that the user prescribed: `speed`, `lean`, or a signal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// Name as in the JSON output, for example `lateral_acceleration`.
+    pub name: String,
+    /// SI unit.
+    pub unit: Cow<'static, str>,
+}
+
+impl Given {
+    /// A prescribed quantity.
+    pub fn new(name: impl Into<String>, unit: impl Into<Cow<'static, str>>) -> Self {
+        Self { name: name.into(), unit: unit.into() }
+    }
+}
+
+/// The result at one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// One value per prescribed quantity of the report.
+    pub given: Vec<f64>,
+    /// How the analysis ended here.
+    pub ending: Ending,
+    /// Iterations taken.
+    pub iterations: usize,
+    /// Largest scaled residual at the end.
+    pub residual: f64,
+    /// One value per signal of the report; empty where nothing was computed.
+    pub values: Vec<f64>,
+}
+
+impl Point {
+    /// Value of the signal with this index; NaN where there is none.
+    pub fn value(&self, signal: usize) -> f64 {
+        self.values.get(signal).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// Everything that a command such as `trim` or `map` found out. Values are SI.
+#[derive(Clone, Debug)]
+pub struct Report<'a> {
+    /// Name of the command.
+    pub command: &'a str,
+    /// Name of the model.
+    pub model: &'a str,
+    /// Axes to which the values refer.
+    pub axes: Axes,
+    /// What was prescribed.
+    pub given: Vec<Given>,
+    /// The signals of the plant.
+    pub signals: &'a [Signal],
+    /// Indices of the signals that the table shows; empty for its own choice. The other formats hold all signals.
+    pub shown: Vec<usize>,
+    /// The points in the order of the sweep.
+    pub points: Vec<Point>,
+    /// What the reader should know beside the results. The table leaves them to standard error.
+    pub warnings: Vec<String>,
+}
+
+impl<'a> Report<'a> {
+    /// An empty report in ISO axes.
+    pub fn new(command: &'a str, model: &'a str, given: Vec<Given>, signals: &'a [Signal]) -> Self {
+        Self { command, model, axes: Axes::Iso, given, signals, shown: Vec::new(), points: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// The same report with all values, given ones and thresholds included, referred to `axes`.
+    pub fn in_axes(mut self, axes: Axes) -> Self {
+        if axes == self.axes {
+            return self;
+        }
+        for point in &mut self.points {
+            let given = self.given.iter().map(|g| g.name.as_str());
+            let signals = self.signals.iter().map(|s| s.name.as_str());
+            point.given.iter_mut().zip(given).chain(point.values.iter_mut().zip(signals)).for_each(|(v, name)| *v = turned(*v, name));
+            if let Ending::Limit { signal, value, threshold, .. } = &mut point.ending {
+                (*value, *threshold) = (turned(*value, signal), turned(*threshold, signal));
+            }
+        }
+        self.axes = axes;
+        self
+    }
+}
+
+/// The value in the other axes; zero keeps its sign, so that no `-0` is printed.
+fn turned(value: f64, name: &str) -> f64 {
+    if value == 0.0 { value } else { value * super::axes::factor(name) }
+}

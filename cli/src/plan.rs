@@ -1,0 +1,350 @@
+//! Plans of steady states: which signals of a vehicle are given and which are found.
+//!
+//! The analyses know signals, not vehicles. Here the options of `trim` become roles of signals: `--speed` is the forward speed
+//! of the base point, `--lean` the roll, and so on (all of the base point: road level below the rear axle in the design pose).
+
+use crate::Failure;
+use crate::arguments::sweep;
+use analyses::trim::{Role, Trim};
+use clap::Args;
+use mbody::description::quantity::Dimensioned;
+use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Curvature, Length, Number, Speed, Torque};
+use mbody::dynamics::System;
+use problem::{Plant, UnknownKind};
+
+/// Options of a steady state.
+#[derive(Clone, Debug, Default, Args)]
+#[command(allow_negative_numbers = true)]
+pub struct TrimArguments {
+    /// Forward speed; left out: the static pose
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
+    pub speed: Option<String>,
+    /// Lean, positive to the right
+    #[arg(long, value_name = "ANGLE", group = "turn", allow_hyphen_values = true)]
+    pub lean: Option<String>,
+    /// Lateral acceleration (speed times yaw rate), positive to the left
+    #[arg(long, value_name = "ACCELERATION", group = "turn", allow_hyphen_values = true)]
+    pub lateral_acceleration: Option<String>,
+    /// Curvature of the path, positive to the left
+    #[arg(long, value_name = "CURVATURE", group = "turn", allow_hyphen_values = true)]
+    pub curvature: Option<String>,
+    /// Radius of the path, positive to the left
+    #[arg(long, value_name = "RADIUS", group = "turn", allow_hyphen_values = true)]
+    pub radius: Option<String>,
+    /// Yaw rate, positive to the left
+    #[arg(long, value_name = "RATE", group = "turn", allow_hyphen_values = true)]
+    pub yaw_rate: Option<String>,
+    /// Steering torque; every lean that holds itself with it is searched
+    #[arg(long, value_name = "TORQUE", group = "turn", allow_hyphen_values = true)]
+    pub steer_torque: Option<String>,
+    /// Acceleration along the heading; negative: braking
+    #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
+    pub acceleration: Option<String>,
+    /// Share of the front brake in the braking torque, 0 to 1
+    #[arg(long, value_name = "SHARE", default_value = "0.7")]
+    pub front_brake_share: String,
+    /// Speed at full throttle
+    #[arg(long, conflicts_with_all = ["speed", "acceleration"])]
+    pub top_speed: bool,
+    /// Gear, for models with an engine
+    #[arg(long, value_name = "NUMBER")]
+    pub gear: Option<u32>,
+    /// Give a signal a value or a formula of other signals: `drive.torque=0`, `rear_brake.torque=0.4*front_brake.torque` (repeatable)
+    #[arg(long, value_name = "SIGNAL=VALUE", allow_hyphen_values = true)]
+    pub given: Vec<String>,
+    /// Let a signal be found, with an optional first guess: `chassis.roll=0.1` (repeatable)
+    #[arg(long, value_name = "SIGNAL")]
+    pub free: Vec<String>,
+    /// Solver: kinsol or newton
+    #[arg(long, default_value = "kinsol")]
+    pub backend: String,
+}
+
+/// How the turn is prescribed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// Roll.
+    Lean,
+    /// Speed times yaw rate.
+    LateralAcceleration,
+    /// Yaw rate over speed.
+    Curvature,
+    /// Inverse of the curvature.
+    Radius,
+    /// Yaw rate.
+    YawRate,
+    /// Steering torque, lean to be found.
+    SteerTorque,
+}
+
+/// One prescribed quantity and its values.
+#[derive(Clone, Debug)]
+pub struct Prescribed {
+    /// Name in reports.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Values, SI.
+    pub values: Vec<f64>,
+}
+
+/// The options as values.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Speeds; none: static.
+    pub speed: Option<Prescribed>,
+    /// Turn; none: straight.
+    pub turn: Option<(Turn, Prescribed)>,
+    /// Accelerations.
+    pub acceleration: Option<Prescribed>,
+    /// Share of the front brake.
+    pub front_brake_share: f64,
+    /// Top speed wanted.
+    pub top_speed: bool,
+    /// `SIGNAL`, formula.
+    pub given: Vec<(String, String)>,
+    /// Signal, guess.
+    pub free: Vec<(String, Option<f64>)>,
+}
+
+fn prescribed<D: Dimensioned>(option: &str, name: &'static str, text: &Option<String>) -> Result<Option<Prescribed>, Failure> {
+    let Some(text) = text else { return Ok(None) };
+    Ok(Some(Prescribed { name, unit: D::DIMENSION.unit, values: sweep::<D>(option, text)? }))
+}
+
+impl TrimArguments {
+    /// Reads all values.
+    ///
+    /// # Errors
+    /// Names the option, the text and what was expected.
+    pub fn request(&self) -> Result<Request, Failure> {
+        let turns = [
+            (Turn::Lean, prescribed::<Angle>("lean", "lean", &self.lean)?),
+            (
+                Turn::LateralAcceleration,
+                prescribed::<Acceleration>("lateral-acceleration", "lateral_acceleration", &self.lateral_acceleration)?,
+            ),
+            (Turn::Curvature, prescribed::<Curvature>("curvature", "curvature", &self.curvature)?),
+            (Turn::Radius, prescribed::<Length>("radius", "radius", &self.radius)?),
+            (Turn::YawRate, prescribed::<AngularSpeed>("yaw-rate", "yaw_rate", &self.yaw_rate)?),
+            (Turn::SteerTorque, prescribed::<Torque>("steer-torque", "steer_torque", &self.steer_torque)?),
+        ];
+        let turn = turns.into_iter().find_map(|(turn, p)| p.map(|p| (turn, p)));
+        let speed = prescribed::<Speed>("speed", "speed", &self.speed)?;
+        if let Some(s) = &speed
+            && let Some(slow) = s.values.iter().find(|&&v| v <= 0.0)
+        {
+            return Err(Failure::Argument(format!(
+                "--speed {slow}: a steady state needs a speed above zero; leave it out for the static pose"
+            )));
+        }
+        if speed.is_none() && !self.top_speed && (turn.is_some() || self.acceleration.is_some()) {
+            return Err(Failure::Argument("a turn or an acceleration needs --speed as well".to_owned()));
+        }
+        if let Some((Turn::Radius, p)) = &turn
+            && p.values.contains(&0.0)
+        {
+            return Err(Failure::Argument("--radius 0: a radius must not be zero; straight running is --curvature 0".to_owned()));
+        }
+        let share = sweep::<Number>("front-brake-share", &self.front_brake_share)?;
+        let [front_brake_share] = share[..] else {
+            return Err(Failure::Argument("--front-brake-share takes one value".to_owned()));
+        };
+        if !(0.0..=1.0).contains(&front_brake_share) {
+            return Err(Failure::Argument(format!("--front-brake-share {front_brake_share}: expected a share from 0 to 1")));
+        }
+        let split = |s: &String| match s.split_once('=') {
+            Some((name, value)) => Ok((name.trim().to_owned(), value.trim().to_owned())),
+            None => Err(Failure::Argument(format!("--given {s}: expected SIGNAL=VALUE"))),
+        };
+        let free = |s: &String| match s.split_once('=') {
+            None => Ok((s.trim().to_owned(), None)),
+            Some((name, guess)) => match guess.trim().parse() {
+                Ok(guess) => Ok((name.trim().to_owned(), Some(guess))),
+                Err(_) => Err(Failure::Argument(format!("--free {s}: the guess `{guess}` is not a number"))),
+            },
+        };
+        Ok(Request {
+            speed,
+            turn,
+            acceleration: prescribed::<Acceleration>("acceleration", "acceleration", &self.acceleration)?,
+            front_brake_share,
+            top_speed: self.top_speed,
+            given: self.given.iter().map(split).collect::<Result<_, _>>()?,
+            free: self.free.iter().map(free).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// Who drives: the engine or the brakes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drive {
+    /// `drive.torque` is found.
+    Engine,
+    /// The brake torques are found, split by the front share.
+    Brakes,
+}
+
+/// A trim with its goals in the order speed, turn, acceleration (those that are there).
+#[derive(Debug)]
+pub struct Plan {
+    /// Roles and conditions.
+    pub trim: Trim,
+    /// Values of the goals at an easy start: straight running at the same speed.
+    pub easy: fn(&[f64]) -> Vec<f64>,
+    /// Largest steps of the goals.
+    pub largest_steps: Vec<f64>,
+}
+
+/// The name of the base link: the owner of `<base>.forward_speed`.
+pub fn base_name(plant: &dyn Plant) -> Option<String> {
+    plant.unknowns().iter().find_map(|u| u.signal.name.strip_suffix(".forward_speed").map(str::to_owned))
+}
+
+fn fix_if_there(trim: &mut Trim, name: &str, value: f64) -> Result<(), Failure> {
+    if trim.role(name).is_some() {
+        trim.give(name, value)?;
+    }
+    Ok(())
+}
+
+fn free_if_there(trim: &mut Trim, name: &str, guess: f64) -> Result<(), Failure> {
+    if trim.role(name).is_some() {
+        trim.free(name, guess)?;
+    }
+    Ok(())
+}
+
+impl Request {
+    /// The static pose: everything at rest, upright, no lateral deflection.
+    pub fn at_rest(&self, plant: &dyn Plant) -> Result<Plan, Failure> {
+        let mut trim = Trim::at_rest(plant);
+        if let Some(base) = base_name(plant) {
+            fix_if_there(&mut trim, &format!("{base}.roll"), 0.0)?;
+        }
+        fix_if_there(&mut trim, "steer.angle", 0.0)?;
+        for unknown in plant.unknowns() {
+            let name = &unknown.signal.name;
+            if unknown.kind == UnknownKind::State && (name.ends_with(".carcass_lateral") || name.ends_with(".lateral_lag")) {
+                fix_if_there(&mut trim, name, 0.0)?;
+            }
+        }
+        self.wishes(&mut trim)?;
+        Ok(Plan { trim, easy: |goals| goals.to_vec(), largest_steps: Vec::new() })
+    }
+
+    /// Steady motion on the road.
+    ///
+    /// Goals in this order: forward speed (unless top speed is wanted), turn, acceleration.
+    pub fn moving(&self, plant: &dyn Plant, system: &System, drive: Drive, speed: f64) -> Result<Plan, Failure> {
+        let Some(base) = base_name(plant) else {
+            return Err(Failure::Argument("this model has no vehicle base; only its static pose (no --speed) can be found".to_owned()));
+        };
+        let mut trim = Trim::steady(plant);
+        let (v, r) = (format!("{base}.forward_speed"), format!("{base}.yaw_rate"));
+        guess_spins(&mut trim, system, speed);
+        free_if_there(&mut trim, "steer.torque", 0.0)?;
+        match drive {
+            Drive::Engine => free_if_there(&mut trim, "drive.torque", 50.0)?,
+            Drive::Brakes => self.brakes(&mut trim)?,
+        }
+        let mut largest_steps = Vec::new();
+        if self.top_speed {
+            trim.free(&v, speed)?;
+            trim.demand("engine.throttle", 1.0, 1.0)?;
+            largest_steps.push(1.0);
+        } else {
+            trim.give(&v, speed)?;
+            largest_steps.push(10.0);
+        }
+        let at = speed.max(1.0);
+        match self.turn.as_ref().map_or(Turn::Lean, |t| t.0) {
+            Turn::Lean => {
+                trim.give(&format!("{base}.roll"), 0.0)?;
+                largest_steps.push(0.18);
+            }
+            Turn::LateralAcceleration => {
+                trim.demand(&format!("{v} * {r}"), 0.0, 1.0)?;
+                largest_steps.push(2.0);
+            }
+            Turn::Curvature | Turn::Radius => {
+                trim.demand(&format!("{r} / {v}"), 0.0, 1.0 / (at * at))?;
+                largest_steps.push(2.0 / (at * at));
+            }
+            Turn::YawRate => {
+                trim.give(&r, 0.0)?;
+                largest_steps.push(2.0 / at);
+            }
+            Turn::SteerTorque => {
+                trim.give("steer.torque", 0.0)?;
+                largest_steps.push(1.0);
+            }
+        }
+        if self.acceleration.is_some() {
+            trim.accelerate(&v, 0.0)?;
+            largest_steps.push(3.0);
+        }
+        self.wishes(&mut trim)?;
+        Ok(Plan { trim, easy: |goals| goals.iter().enumerate().map(|(i, &g)| if i == 0 { g } else { 0.0 }).collect(), largest_steps })
+    }
+
+    /// Brake torques are found, the engine is off.
+    fn brakes(&self, trim: &mut Trim) -> Result<(), Failure> {
+        let p = self.front_brake_share;
+        let (lead, other, ratio) = match p > 0.5 {
+            true => ("front_brake.torque", "rear_brake.torque", (1.0 - p) / p),
+            false => ("rear_brake.torque", "front_brake.torque", p / (1.0 - p)),
+        };
+        if trim.role(lead).is_none() || trim.role(other).is_none() {
+            return Err(Failure::Argument(
+                "this model has no inputs `front_brake.torque` and `rear_brake.torque` to brake with".to_owned(),
+            ));
+        }
+        trim.free(lead, 0.0)?;
+        Ok(trim.tie(other, &format!("{ratio} * {lead}"))?)
+    }
+
+    /// `--given` and `--free`.
+    fn wishes(&self, trim: &mut Trim) -> Result<(), Failure> {
+        for (name, formula) in &self.given {
+            match formula.parse::<f64>() {
+                Ok(value) => {
+                    trim.give(name, value)?;
+                }
+                Err(_) => self.given_formula(trim, name, formula)?,
+            }
+        }
+        for (name, guess) in &self.free {
+            let guess = guess.or_else(|| match trim.role(name) {
+                Some(Role::Fixed(x) | Role::Unknown(x)) => Some(*x),
+                _ => None,
+            });
+            trim.free(name, guess.unwrap_or(0.0))?;
+        }
+        Ok(())
+    }
+
+    /// A value with a unit, or a formula of signals.
+    fn given_formula(&self, trim: &mut Trim, name: &str, formula: &str) -> Result<(), Failure> {
+        let unit = trim.variables().find(name).map(|v| trim.variables().unit(v));
+        let dimension = unit.as_deref().and_then(mbody::description::quantity::Dimension::of_unit);
+        if let Some(value) = dimension.and_then(|d| mbody::description::quantity::parse_quantity(formula, d).ok()) {
+            trim.give(name, value)?;
+            return Ok(());
+        }
+        if trim.role(name).is_none() && trim.variables().find(name).is_some() {
+            trim.demand(&format!("{name} - ({formula})"), 0.0, 1.0)?;
+            return Ok(());
+        }
+        Ok(trim.tie(name, formula)?)
+    }
+}
+
+/// First guesses of the spin rates: forward speed over the height of the wheel center in the design pose.
+fn guess_spins(trim: &mut Trim, system: &System, speed: f64) {
+    for (joint, height) in system.design_heights() {
+        if height > 0.05 {
+            trim.guess(&format!("{joint}.spin_rate"), speed / height);
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Runs steady states over a grid of prescribed values, in parallel, and keeps every point with its cause.
+
+use crate::backend::AlgebraicBackend;
+use crate::output::{Given, Point, Progress};
+use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
+use crate::{Failure, backend};
+use analyses::trim::{TrimError, TrimPoint, TrimProblem, Walk};
+use mbody::dynamics::{System, TreePlant};
+use problem::{Ending, Plant, Signal};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// A grid of steady states.
+#[derive(Debug)]
+pub struct Steady {
+    /// What was prescribed.
+    pub given: Vec<Given>,
+    /// All signals: unknowns, inputs, outputs.
+    pub signals: Vec<Signal>,
+    /// Points in the order of the grid, the last prescribed quantity running fastest.
+    pub points: Vec<Point>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// The values of one grid point.
+#[derive(Clone, Copy, Debug, Default)]
+struct Goal {
+    speed: Option<f64>,
+    turn: Option<f64>,
+    acceleration: Option<f64>,
+}
+
+/// All signals of a plant: unknowns, inputs, outputs.
+pub fn signals(plant: &dyn Plant) -> Vec<Signal> {
+    let unknowns = plant.unknowns().iter().map(|u| u.signal.clone());
+    unknowns.chain(plant.inputs().iter().map(|i| i.signal.clone())).chain(plant.outputs().iter().cloned()).collect()
+}
+
+fn values(p: &TrimPoint) -> Vec<f64> {
+    if !p.solved {
+        return Vec::new();
+    }
+    p.y.iter().chain(&p.u).chain(&p.outputs).copied().collect()
+}
+
+/// Runs a request. `what` names the job for the progress bar.
+///
+/// # Errors
+/// The request as a whole is impossible; a point that cannot be reached is no error.
+pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &str) -> Result<Steady, Failure> {
+    let Some(backend) = backend::algebraic(backend_name) else {
+        let known: Vec<&str> = backend::ALGEBRAIC.iter().map(|b| b.name).collect();
+        return Err(Failure::Argument(format!("--backend {backend_name}: expected one of {}", known.join(", "))));
+    };
+    let plant = TreePlant::new(system.clone());
+    let prescribed: Vec<&Prescribed> =
+        request.speed.iter().chain(request.turn.as_ref().map(|t| &t.1)).chain(request.acceleration.as_ref()).collect();
+    let given = prescribed.iter().map(|p| Given::new(p.name, p.unit)).collect();
+    let goals = grid(request);
+    let progress = Progress::new(what, goals.len());
+    // a line is what one task walks along; lines are independent
+    let line = request.turn.as_ref().map_or(1, |t| t.1.values.len()) * request.acceleration.as_ref().map_or(1, |a| a.values.len());
+    let lines: Vec<Result<Vec<Point>, Failure>> = goals
+        .par_chunks(line.max(1))
+        .map(|line| {
+            let mut points = Vec::new();
+            for goal in line {
+                points.extend(point(request, system, backend, *goal)?);
+                progress.advance();
+            }
+            Ok(points)
+        })
+        .collect();
+    let mut points = Vec::new();
+    for line in lines {
+        points.extend(line?);
+    }
+    let mut warnings = Vec::new();
+    if request.acceleration.is_some() && request.turn.is_some() {
+        warnings.push(
+            "quasi-steady: shape, slips and curvature are held while the speed changes; the drift of the lean with speed is ignored"
+                .to_owned(),
+        );
+    }
+    Ok(Steady { given, signals: signals(&plant), points, warnings })
+}
+
+fn grid(request: &Request) -> Vec<Goal> {
+    let axis = |p: Option<&Prescribed>| p.map_or(vec![None], |p| p.values.iter().copied().map(Some).collect());
+    let (speeds, turns) = (axis(request.speed.as_ref()), axis(request.turn.as_ref().map(|t| &t.1)));
+    let accelerations = axis(request.acceleration.as_ref());
+    let mut goals = Vec::with_capacity(speeds.len() * turns.len() * accelerations.len());
+    for &speed in &speeds {
+        for &turn in &turns {
+            for &acceleration in &accelerations {
+                goals.push(Goal { speed, turn, acceleration });
+            }
+        }
+    }
+    goals
+}
+
+/// The steady states at one grid point: one, or for a given steering torque as many as there are.
+fn point(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend, goal: Goal) -> Result<Vec<Point>, Failure> {
+    let given: Vec<f64> = [goal.speed, goal.turn, goal.acceleration].into_iter().flatten().collect();
+    let found = match (goal.speed, request.top_speed) {
+        (None, false) => vec![at_rest(request, system, backend)?],
+        (speed, _) => {
+            let speed = speed.unwrap_or(50.0);
+            match request.turn.as_ref().map(|t| t.0) {
+                Some(Turn::SteerTorque) => with_torque(request, system, backend, speed, goal)?,
+                _ => vec![moving(request, system, backend, speed, goal)?],
+            }
+        }
+    };
+    let to_point =
+        |p: TrimPoint| Point { given: given.clone(), values: values(&p), ending: p.ending, iterations: p.iterations, residual: p.residual };
+    Ok(found.into_iter().map(to_point).collect())
+}
+
+fn at_rest(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend) -> Result<TrimPoint, Failure> {
+    let mut plant = TreePlant::new(system.clone());
+    let plan = request.at_rest(&plant)?;
+    walk(&mut plant, &plan, backend, &[]).map_err(Failure::Trim)
+}
+
+/// Walks from straight running at the same speed to the goal.
+fn moving(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend, speed: f64, goal: Goal) -> Result<TrimPoint, Failure> {
+    let turn = match (request.turn.as_ref().map(|t| t.0), goal.turn) {
+        (Some(Turn::Radius), Some(radius)) => 1.0 / radius,
+        (_, turn) => turn.unwrap_or(0.0),
+    };
+    let mut goals = if request.top_speed { vec![1.0, turn] } else { vec![speed, turn] };
+    goals.extend(goal.acceleration);
+    let with = |drive| -> Result<TrimPoint, Failure> {
+        let mut plant = TreePlant::new(system.clone());
+        let plan = request.moving(&plant, system, drive, speed)?;
+        walk(&mut plant, &plan, backend, &goals).map_err(Failure::Trim)
+    };
+    if goal.acceleration.is_none_or(|a| a >= 0.0) {
+        return with(Drive::Engine);
+    }
+    // less braking than drag and rolling resistance do by themselves still needs the engine
+    let braked = with(Drive::Brakes)?;
+    match braked.solved && torque_is_negative(&braked, system) {
+        true => with(Drive::Engine),
+        false => Ok(braked),
+    }
+}
+
+fn torque_is_negative(point: &TrimPoint, system: &System) -> bool {
+    let brakes = system.inputs().iter().zip(&point.u).filter(|(i, _)| i.signal.name.ends_with("_brake.torque"));
+    brakes.map(|(_, u)| *u).sum::<f64>() < 0.0
+}
+
+/// Solves at an easy start, then walks to the goals.
+fn walk(plant: &mut TreePlant, plan: &Plan, backend: &AlgebraicBackend, goals: &[f64]) -> Result<TrimPoint, TrimError> {
+    let mut problem = TrimProblem::new(plant, &plan.trim)?;
+    let mut method = (backend.make)();
+    let walk = Walk { largest_steps: plan.largest_steps.clone(), ..Walk::default() };
+    // goals beyond ours were given by the user and keep their values
+    let mut target: Vec<f64> = problem.goals().into_iter().map(|(_, v)| v).collect();
+    target[..goals.len()].copy_from_slice(goals);
+    let mut easy = target.clone();
+    easy[..goals.len()].copy_from_slice(&(plan.easy)(goals));
+    let mut x = problem.guess().to_vec();
+    let outcome = walk.solve(&mut problem, method.as_mut(), &easy, &mut x);
+    if !outcome.converged() {
+        // walk there in speed from a slower start
+        let mut slow = easy.clone();
+        if let Some(first) = slow.first_mut().filter(|_| !goals.is_empty()) {
+            *first = first.min(15.0);
+        }
+        x = problem.guess().to_vec();
+        walk.solve(&mut problem, method.as_mut(), &slow, &mut x);
+        return walk.reach(&mut problem, method.as_mut(), (&slow, &x), &target);
+    }
+    let mut point = walk.reach(&mut problem, method.as_mut(), (&easy, &x), &target)?;
+    point.iterations += outcome.iterations;
+    Ok(point)
+}
+
+/// All leans at which the given steering torque holds: sign changes along a sweep of the lean, each then solved for.
+fn with_torque(
+    request: &Request,
+    system: &Arc<System>,
+    backend: &AlgebraicBackend,
+    speed: f64,
+    goal: Goal,
+) -> Result<Vec<TrimPoint>, Failure> {
+    let torque = goal.turn.unwrap_or(0.0);
+    let lean_request = Request { turn: Some((Turn::Lean, Prescribed { name: "lean", unit: "rad", values: vec![] })), ..request.clone() };
+    let step = 0.05;
+    let mut found = Vec::new();
+    let at = |system: &System, name: &str| system.inputs().iter().position(|i| i.signal.name == name);
+    let Some(torque_at) = at(system, "steer.torque") else {
+        return Err(Failure::Argument("this model has no input `steer.torque`".to_owned()));
+    };
+    for side in [1.0, -1.0] {
+        let mut before: Option<(f64, f64)> = None;
+        for k in 0..=20 {
+            let lean = side * step * f64::from(k);
+            let trial = moving(&lean_request, system, backend, speed, Goal { turn: Some(lean), ..goal })?;
+            if !trial.solved {
+                break;
+            }
+            let off = trial.u[torque_at] - torque;
+            let crossing = before.is_some_and(|(_, b)| b * off < 0.0) || (k == 0 && off.abs() < 1e-9 && side > 0.0);
+            if crossing {
+                let bracket = (before.unwrap_or((lean, off)), (lean, off));
+                found.push(refine(&lean_request, system, backend, (speed, torque), goal, bracket)?);
+            }
+            // a root at the very start is told once, and is no side of a bracket
+            before = if off.abs() < 1e-9 { None } else { Some((lean, off)) };
+        }
+    }
+    if found.is_empty() {
+        let mut straight = moving(&lean_request, system, backend, speed, Goal { turn: Some(0.0), ..goal })?;
+        straight.solved = false;
+        straight.ending =
+            Ending::NotConverged { because: format!("no lean from -1 to 1 rad holds itself with a steering torque of {torque} N m") };
+        found.push(straight);
+    }
+    found.sort_by(|a, b| a.goals[1].1.total_cmp(&b.goals[1].1));
+    Ok(found)
+}
+
+/// Brent-free refinement: secant steps inside a bracket of the lean until the torque holds to 1e-10 N m.
+fn refine(
+    request: &Request,
+    system: &Arc<System>,
+    backend: &AlgebraicBackend,
+    (speed, torque): (f64, f64),
+    goal: Goal,
+    mut bracket: ((f64, f64), (f64, f64)),
+) -> Result<TrimPoint, Failure> {
+    let torque_at = system.inputs().iter().position(|i| i.signal.name == "steer.torque").unwrap_or_default();
+    let solve = |lean: f64| moving(request, system, backend, speed, Goal { turn: Some(lean), ..goal });
+    let mut point = solve(bracket.1.0)?;
+    for round in 0..60 {
+        let ((a, fa), (b, fb)) = bracket;
+        let width = b - a;
+        if (point.u[torque_at] - torque).abs() < 1e-10 || width.abs() < 1e-13 {
+            break;
+        }
+        // Illinois-like: every third step halves the bracket
+        let lean = if round % 3 == 2 { a + 0.5 * width } else { b - fb * width / (fb - fa) };
+        point = solve(lean)?;
+        let f = point.u[torque_at] - torque;
+        bracket = if fa * f < 0.0 { ((a, fa), (lean, f)) } else { ((lean, f), (b, fb)) };
+    }
+    Ok(point)
+}

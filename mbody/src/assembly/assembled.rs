@@ -1,0 +1,206 @@
+//! From text to a system: everything that is wrong is said at once.
+
+use super::description::{BaseDescription, Description, schema};
+use super::{Kinds, Site, tree};
+use crate::description::Library;
+use crate::description::document::Document;
+use crate::description::finding::{Finding, Findings};
+use crate::description::quantity::parse_quantity;
+use crate::description::schema::Schema;
+use crate::description::urdf::{self, Robot};
+use crate::dynamics::System;
+use crate::force::Force;
+use crate::spatial::Vec3;
+use crate::stage::Workspace;
+use std::sync::Arc;
+
+/// A system that was read from files.
+#[derive(Debug)]
+pub struct Assembled {
+    /// Name for headings.
+    pub name: String,
+    /// A sentence or two.
+    pub about: String,
+    /// The system.
+    pub system: Arc<System>,
+    /// The tree as URDF describes it, with its looks.
+    pub robot: Robot,
+    /// Elements left out because their joint is locked: element, joint.
+    pub left_out: Vec<(String, String)>,
+    /// Kind of each element, in the order of the system.
+    pub kinds: Vec<(String, String)>,
+}
+
+/// An override from outside the files: path and text, as in `--set rear_spring.stiffness=58kN/m`.
+pub type Override = (String, String);
+
+/// Reads a description and assembles it.
+///
+/// `file` is the name of the description in the library; names inside it are handed to the library as they stand. Errors and
+/// warnings of all files come back together; the system is there where no error is among them.
+pub fn assemble(file: &str, library: &dyn Library, kinds: &Kinds, overrides: &[Override]) -> (Option<Assembled>, Findings) {
+    let mut findings = Findings::new();
+    let Some(text) = library.text(file) else {
+        findings.push(Finding::error("missing_file", format!("file `{file}` was not found")));
+        return (None, findings);
+    };
+    let mut document = match Document::parse(file, &text) {
+        Ok(document) => document,
+        Err(errors) => return (None, errors),
+    };
+    let (of_tree, of_elements): (Vec<&Override>, Vec<&Override>) = overrides.iter().partition(|o| is_tree_path(&o.0));
+    for (path, value) in of_elements {
+        override_entry(&mut document, path, value, &mut findings);
+    }
+    match Schema::new(&schema(kinds)) {
+        Ok(schema) => findings.extend(schema.check(&document)),
+        Err(errors) => findings.extend(errors),
+    }
+    let robot = read_tree(&document, library, &of_tree, &mut findings);
+    if findings.has_errors() {
+        return (None, findings.sorted());
+    }
+    let description: Description = match document.read("") {
+        Ok(description) => description,
+        Err(errors) => {
+            findings.extend(errors);
+            return (None, findings.sorted());
+        }
+    };
+    let Some(robot) = robot else { return (None, findings.sorted()) };
+    let assembled = join(description, robot, library, kinds, &document, &mut findings);
+    (assembled.filter(|_| !findings.has_errors()), findings.sorted())
+}
+
+/// A plain URDF as a system without elements, on a fixed, free or vehicle base.
+pub fn assemble_urdf(file: &str, text: &str, base: BaseDescription, gravity: f64, overrides: &[Override]) -> (Option<Assembled>, Findings) {
+    let (robot, mut findings) = urdf::read(file, text);
+    let Some(mut robot) = robot else { return (None, findings) };
+    for (path, value) in overrides {
+        set_tree_entry(&mut robot, path, value, &mut findings);
+    }
+    let down = Vec3::new(0.0, 0.0, -gravity);
+    let model = tree::model(&robot, base, &Default::default(), down, &mut findings);
+    let assembled = model.and_then(|model| match System::new(model, Vec::new()) {
+        Ok(system) => Some(Assembled {
+            name: robot.name.clone(),
+            about: String::new(),
+            system: Arc::new(system),
+            robot,
+            left_out: Vec::new(),
+            kinds: Vec::new(),
+        }),
+        Err(error) => {
+            findings.push(Finding::error("signal_clash", error.to_string()));
+            None
+        }
+    });
+    (assembled.filter(|_| !findings.has_errors()), findings.sorted())
+}
+
+/// Whether an override goes to the URDF: `link.…`, or `joint.<name>.…` other than the joint options of the description.
+fn is_tree_path(path: &str) -> bool {
+    let option = [".locked", ".kind", ".pitch"].iter().any(|o| path.ends_with(o));
+    path.starts_with("link.") || (path.starts_with("joint.") && !option)
+}
+
+/// Reads the URDF that the description names and applies overrides to it.
+fn read_tree(document: &Document, library: &dyn Library, overrides: &[&Override], findings: &mut Findings) -> Option<Robot> {
+    let name = document.value().get("urdf")?.as_str()?;
+    let Some(text) = library.text(name) else {
+        findings.push(document.locate(Finding::error("missing_file", format!("file `{name}` was not found")).at_path("urdf")));
+        return None;
+    };
+    let (robot, of_urdf) = urdf::read(name, &text);
+    findings.extend(of_urdf);
+    let mut robot = robot?;
+    for (path, value) in overrides {
+        set_tree_entry(&mut robot, path, value, findings);
+    }
+    if !overrides.is_empty() {
+        findings.extend(robot.check());
+    }
+    Some(robot)
+}
+
+fn set_tree_entry(robot: &mut Robot, path: &str, text: &str, findings: &mut Findings) {
+    let done = robot.dimension_of(path).and_then(|dimension| match parse_quantity(text, dimension) {
+        Ok(value) => robot.set(path, value),
+        Err(error) => Err(Finding::error(error.code(), error.to_string()).at_path(path).with_hint_from(error.hint()).into()),
+    });
+    if let Err(errors) = done {
+        findings.extend(errors);
+    }
+}
+
+/// Overrides an entry of the description; `joint.<name>.locked` stands under `joints` there.
+fn override_entry(document: &mut Document, path: &str, text: &str, findings: &mut Findings) {
+    let path = path.strip_prefix("joint.").map_or_else(|| path.to_owned(), |joint| format!("joints.{joint}"));
+    if let Err(errors) = document.set(&path, text) {
+        findings.extend(errors);
+    }
+}
+
+/// Tree and elements become a system.
+fn join(
+    description: Description,
+    robot: Robot,
+    library: &dyn Library,
+    kinds: &Kinds,
+    document: &Document,
+    findings: &mut Findings,
+) -> Option<Assembled> {
+    let down = Vec3::new(0.0, 0.0, -description.gravity.map_or(9.81, |g| g.si()));
+    let mut of_tree = Findings::new();
+    let model = tree::model(&robot, description.base, &description.joints, down, &mut of_tree);
+    findings.extend(of_tree.iter().map(|f| document.locate(f.clone())));
+    let model = model?;
+    let locked: Vec<String> = description.joints.iter().filter(|(_, o)| o.locked).map(|(name, _)| name.clone()).collect();
+    let mut design = Workspace::new(&model);
+    design.to_design(&model);
+    let (mut forces, mut left_out, mut named) = (Vec::new(), Vec::new(), Vec::new());
+    let mut of_elements = Findings::new();
+    for (name, value) in &description.elements {
+        let Some((tag, parameters)) = value.as_object().and_then(|o| o.iter().next()) else { continue };
+        let Some(kind) = kinds.element(tag) else { continue };
+        let path = format!("elements.{name}.{tag}");
+        let mut site = Site {
+            element: name,
+            path,
+            model: &model,
+            design: &design.world,
+            locked: &locked,
+            library,
+            findings: &mut of_elements,
+            left_out: None,
+        };
+        let built: Option<Force> = (kind.build)(&mut site, parameters);
+        match (built, site.left_out.take()) {
+            (Some(force), _) => {
+                named.push((name.clone(), tag.clone()));
+                forces.push(force);
+            }
+            (None, Some(joint)) => left_out.push((name.clone(), joint)),
+            (None, None) => {}
+        }
+    }
+    let failed = of_elements.has_errors();
+    findings.extend(of_elements.iter().map(|f| document.locate(f.clone())));
+    if failed {
+        return None;
+    }
+    match System::new(model, forces) {
+        Ok(system) => Some(Assembled {
+            name: description.name,
+            about: description.about.unwrap_or_default(),
+            system: Arc::new(system),
+            robot,
+            left_out,
+            kinds: named,
+        }),
+        Err(error) => {
+            findings.push(document.locate(Finding::error("signal_clash", error.to_string()).at_path("elements")));
+            None
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! What a description file may say, and its JSON Schema.
+
+use super::Kinds;
+use crate::description::quantity::dimension::{Acceleration, Length};
+use crate::description::quantity::{NonNegativeQuantity, Quantity};
+use schemars::{JsonSchema, generate::SchemaSettings};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+
+/// A description: a URDF tree and everything that URDF cannot say.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Description {
+    /// Version of this format: 1.
+    #[schemars(range(min = 1, max = 1))]
+    pub fastbike: u32,
+    /// Name for headings and figures.
+    pub name: String,
+    /// A sentence or two: what it is and where the numbers come from.
+    pub about: Option<String>,
+    /// URDF file with links and joints, beside this file.
+    pub urdf: String,
+    /// Joint between the world and the root link.
+    pub base: BaseDescription,
+    /// Acceleration of free fall, downward; 9.81 m/s² where left out.
+    pub gravity: Option<NonNegativeQuantity<Acceleration>>,
+    /// What URDF cannot say about its joints.
+    #[serde(default)]
+    pub joints: BTreeMap<String, JointOptions>,
+    /// Force elements, by name: `rear_shock: { spring_damper: { … } }`.
+    #[serde(default)]
+    pub elements: Map<String, Value>,
+}
+
+/// Joint between the world and the root link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BaseDescription {
+    /// Welded to the world.
+    Fixed,
+    /// Free, with a quaternion; velocities in axes of the root link.
+    Free,
+    /// Motion in the horizontal plane.
+    Planar,
+    /// Planar motion in the yawed frame, then heave, roll and pitch; the root link's origin is the base point.
+    VehicleBase,
+}
+
+/// What URDF cannot say about a joint.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointOptions {
+    /// Locks the joint at zero: its link is welded, and elements that act on the joint are left out.
+    #[serde(default)]
+    pub locked: bool,
+    /// Kind of joint that URDF does not know, in place of the one written there.
+    pub kind: Option<JointKindDescription>,
+    /// Advance of a screw per radian.
+    pub pitch: Option<Quantity<Length>>,
+}
+
+/// Kinds of joints that URDF does not know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JointKindDescription {
+    /// Rotation about x of the joint frame, then about y of the link.
+    Universal,
+    /// Rotation about the axis with a proportional advance along it.
+    Screw,
+}
+
+/// The JSON Schema (draft 2020-12) of descriptions with the given kinds.
+pub fn schema(kinds: &Kinds) -> Value {
+    let mut generator = SchemaSettings::draft2020_12().into_generator();
+    let mut choices = Vec::new();
+    for kind in kinds.elements() {
+        let parameters = (kind.schema)(&mut generator);
+        choices.push(json!({
+            "type": "object",
+            "description": kind.about,
+            "properties": { kind.name: parameters },
+            "required": [kind.name],
+            "additionalProperties": false
+        }));
+    }
+    let mut root = generator.root_schema_for::<Description>().to_value();
+    root["title"] = json!("FastBike description");
+    root["properties"]["elements"] = json!({
+        "type": "object",
+        "description": "Force elements, by name; each is one kind with its parameters.",
+        "additionalProperties": { "oneOf": choices }
+    });
+    // `root_schema_for` collects the definitions that the kinds refer to as well
+    root
+}

@@ -1,0 +1,289 @@
+//! Documents: a YAML text as a tree of values, every one of which knows its line.
+//!
+//! The values come from `serde_yaml`, used in this module only; lines and columns, duplicate keys and other things it does not say
+//! come from a second pass over the text with `saphyr-parser`.
+//!
+//! Entries are named by dotted paths, `elements.shock.spring_damper.stiffness`; items of a list by their number from zero.
+//! A path may leave out the section at the front and the tag of a kind: `shock.stiffness` names the same entry, if no other one
+//! is called so.
+
+mod path;
+mod scan;
+mod syntax;
+
+use super::finding::{Finding, Findings, nearest};
+use path::{dotted, step};
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+use std::collections::HashMap;
+
+/// A line and a column, counted from one.
+type Place = (usize, usize);
+
+/// Where an entry stands.
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    source: usize,
+    /// Of an entry of a mapping, its name.
+    key: Option<Place>,
+    value: Place,
+}
+
+/// A text from which values came; empty for a change made by [`Document::set`].
+#[derive(Clone, Debug)]
+struct Source {
+    file: String,
+    text: String,
+}
+
+/// A YAML text as a tree of values with positions.
+#[derive(Clone, Debug)]
+pub struct Document {
+    value: Value,
+    sources: Vec<Source>,
+    /// By JSON pointer.
+    marks: HashMap<String, Mark>,
+}
+
+/// Which part of an entry a finding is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// Its name.
+    Key,
+    /// What stands behind the name.
+    Value,
+}
+
+impl Document {
+    /// Reads a text; `file` is its name in messages.
+    ///
+    /// # Errors
+    /// The text is no YAML, or it says something twice, or something that a tree of names, numbers and texts cannot hold.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Findings> {
+        let (marks, findings) = scan::scan(file, text);
+        if findings.has_errors() {
+            return Err(findings.sorted());
+        }
+        let value = read(text).map_err(|e| syntax::finding(file, text, &e.0, e.1))?;
+        let source = Source { file: file.to_string(), text: text.to_string() };
+        Ok(Self { value, sources: vec![source], marks })
+    }
+
+    /// The values.
+    pub fn value(&self) -> &Value {
+        &self.value
+    }
+
+    /// Name of the text.
+    pub fn file(&self) -> &str {
+        &self.sources[0].file
+    }
+
+    /// The entry of a path.
+    pub fn get(&self, path: &str) -> Option<&Value> {
+        self.value.pointer(&self.find(path)?)
+    }
+
+    /// The entry of a path, as some type.
+    ///
+    /// # Errors
+    /// There is no such entry, or it does not fit the type; reports one mistake, so check against the schema first.
+    pub fn read<T: DeserializeOwned>(&self, path: &str) -> Result<T, Findings> {
+        let pointer = self.find(path).ok_or_else(|| self.unknown_path(path))?;
+        let value = self.value.pointer(&pointer).unwrap_or(&Value::Null);
+        serde_path_to_error::deserialize(value).map_err(|error| {
+            let mut at = pointer;
+            for segment in error.path() {
+                use serde_path_to_error::Segment;
+                match segment {
+                    Segment::Seq { index } => at = step(&at, &index.to_string()),
+                    Segment::Map { key } => at = step(&at, key),
+                    Segment::Enum { variant } => at = step(&at, variant),
+                    Segment::Unknown => break,
+                }
+            }
+            self.located(Finding::error("invalid_entry", error.into_inner().to_string()), &at, About::Value).into()
+        })
+    }
+
+    /// An error about the entry of a path, with its place.
+    pub fn finding(&self, path: &str, code: &'static str, message: impl Into<String>) -> Finding {
+        self.locate(Finding::error(code, message).at_path(path))
+    }
+
+    /// The finding, with the place that its path names, or of the nearest enclosing entry where it names none.
+    pub fn locate(&self, finding: Finding) -> Finding {
+        let mut path = finding.path.as_str();
+        loop {
+            if let Some(pointer) = self.find(path) {
+                let whole = finding.path.clone();
+                return Finding { path: whole, ..self.located(finding, &pointer, About::Value) };
+            }
+            path = path.rfind('.').map_or("", |end| &path[..end]);
+        }
+    }
+
+    /// The finding, with path and place of the entry that a JSON pointer names, or of the nearest enclosing one.
+    pub fn located(&self, finding: Finding, pointer: &str, about: About) -> Finding {
+        let finding = Finding { path: dotted(pointer), ..finding };
+        let mut at = pointer;
+        let mark = loop {
+            match (self.marks.get(at), at.rfind('/')) {
+                (Some(mark), _) => break mark,
+                (None, Some(end)) => at = &at[..end],
+                (None, None) => return finding.in_file(self.file()),
+            }
+        };
+        // a block of entries begins below its name, which says more
+        let block = self.value.pointer(at).is_some_and(|v| v.is_object() || v.is_array());
+        let key = mark.key.filter(|_| about == About::Key || block || at != pointer);
+        let (line, column) = key.unwrap_or(mark.value);
+        let source = &self.sources[mark.source];
+        let finding = finding.in_file(&source.file);
+        // a change made by `set` is its own excerpt
+        if source.text.is_empty() { finding } else { finding.at_line(&source.text, line, column) }
+    }
+
+    /// Changes an entry to what `text` says in YAML: a number, a quantity, a list …; nothing at all removes the entry.
+    ///
+    /// An entry that is not there yet is added where the entries around it are there; whether its name is right is for the schema.
+    ///
+    /// # Errors
+    /// There is nothing under that name, not even around it; the nearest known path is named.
+    pub fn set(&mut self, path: &str, text: &str) -> Result<(), Findings> {
+        let pointer = match self.find(path) {
+            Some(pointer) => pointer,
+            None => {
+                let (around, name) = path.rsplit_once('.').ok_or_else(|| self.unknown_path(path))?;
+                let around = self.find(around).map(|p| self.inside_tag(p)).ok_or_else(|| self.unknown_path(path))?;
+                if !self.value.pointer(&around).is_some_and(Value::is_object) {
+                    return Err(self.unknown_path(path));
+                }
+                step(&around, name)
+            }
+        };
+        let value = read(text).unwrap_or_else(|_| Value::String(text.to_string()));
+        self.sources.push(Source { file: format!("{path}={text}"), text: String::new() });
+        let mark = Mark { source: self.sources.len() - 1, key: None, value: (1, 1) };
+        let (around, name) = path::split(&pointer).unwrap_or_default();
+        match self.value.pointer_mut(around) {
+            Some(Value::Object(entries)) if value.is_null() => {
+                entries.shift_remove(&name);
+            }
+            Some(Value::Object(entries)) => {
+                entries.insert(name, value);
+            }
+            Some(Value::Array(items)) => {
+                if let Some(item) = name.parse::<usize>().ok().and_then(|k| items.get_mut(k)) {
+                    *item = value;
+                }
+            }
+            _ => self.value = value,
+        }
+        self.forget(&pointer);
+        self.marks.insert(pointer, mark);
+        Ok(())
+    }
+
+    /// Lays another document over this one: entries are joined, everything else is replaced, `null` removes (RFC 7386).
+    pub fn merge(&mut self, overlay: Self) {
+        let shift = self.sources.len();
+        self.sources.extend(overlay.sources);
+        let mut joined = vec![String::new()];
+        join(&mut self.value, overlay.value, "", &mut joined);
+        // an entry that both have keeps its place, its contents have theirs
+        for (pointer, mark) in overlay.marks {
+            if !joined.contains(&pointer) || !self.marks.contains_key(&pointer) {
+                self.marks.insert(pointer, Mark { source: mark.source + shift, ..mark });
+            }
+        }
+    }
+
+    /// Every path to a number, text or truth value, without section and tag where that is enough.
+    pub fn paths(&self) -> Vec<String> {
+        let mut pointers = Vec::new();
+        leaves(&self.value, String::new(), &mut pointers);
+        pointers.into_iter().map(|pointer| self.short(&pointer)).collect()
+    }
+
+    fn short(&self, pointer: &str) -> String {
+        let steps: Vec<&str> = pointer.split('/').skip(1).collect();
+        let without =
+            |k: usize| dotted(&steps.iter().enumerate().filter(|(j, _)| *j != 0 && *j != k).fold(String::new(), |p, (_, s)| p + "/" + s));
+        let tag =
+            (1..steps.len()).find(|k| self.inside_tag(format!("/{}", steps[..*k].join("/"))) == format!("/{}", steps[..=*k].join("/")));
+        let shorter = [tag.map(without), Some(without(0))];
+        shorter.into_iter().flatten().find(|s| self.find(s).as_deref() == Some(pointer)).unwrap_or_else(|| dotted(pointer))
+    }
+
+    fn unknown_path(&self, path: &str) -> Findings {
+        let known = self.paths();
+        let hint = nearest(path, known.iter().map(String::as_str)).map(|near| format!("did you mean `{near}`?"));
+        let finding = Finding::error("unknown_path", format!("there is no entry `{path}` in `{}`", self.file()));
+        finding.at_path(path).with_hint_from(hint).into()
+    }
+
+    /// Pointer to the entry of a path.
+    fn find(&self, path: &str) -> Option<String> {
+        if let Some(pointer) = path::find(&self.value, path, path::Tags::Exact) {
+            return Some(pointer);
+        }
+        let sections = self.value.as_object().into_iter().flatten();
+        let within = sections.filter(|(_, v)| v.is_object()).find_map(|(name, section)| {
+            let rest = path::find(section, path, path::Tags::Skipped)?;
+            Some(step("", name) + &rest)
+        });
+        within.or_else(|| path::find(&self.value, path, path::Tags::Skipped))
+    }
+
+    /// The entries of a kind, where a pointer names the element.
+    fn inside_tag(&self, pointer: String) -> String {
+        match self.value.pointer(&pointer).and_then(path::tag) {
+            Some((tag, _)) => step(&pointer, tag),
+            None => pointer,
+        }
+    }
+
+    fn forget(&mut self, pointer: &str) {
+        self.marks.retain(|p, _| p != pointer && !p.strip_prefix(pointer).is_some_and(|rest| rest.starts_with('/')));
+    }
+}
+
+/// Values of a text, or a message and where it applies.
+fn read(text: &str) -> Result<Value, (String, Option<Place>)> {
+    let message = |e: serde_yaml::Error| (e.to_string(), e.location().map(|l| (l.line(), l.column())));
+    let mut value: serde_yaml::Value = serde_yaml::from_str(text).map_err(message)?;
+    value.apply_merge().map_err(message)?;
+    serde_json::to_value(value).map_err(|e| (e.to_string(), None))
+}
+
+fn join(base: &mut Value, overlay: Value, pointer: &str, joined: &mut Vec<String>) {
+    let Value::Object(changes) = overlay else {
+        *base = overlay;
+        return;
+    };
+    if !base.is_object() {
+        *base = Value::Object(Map::new());
+    }
+    let Value::Object(entries) = base else { return };
+    joined.push(pointer.to_string());
+    for (key, change) in changes {
+        if change.is_null() {
+            entries.shift_remove(&key);
+        } else {
+            let pointer = step(pointer, &key);
+            join(entries.entry(key).or_insert(Value::Null), change, &pointer, joined);
+        }
+    }
+}
+
+fn leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
+    match value {
+        Value::Object(entries) => entries.iter().for_each(|(key, v)| leaves(v, step(&pointer, key), found)),
+        Value::Array(items) => items.iter().enumerate().for_each(|(k, v)| leaves(v, step(&pointer, &k.to_string()), found)),
+        _ => found.push(pointer),
+    }
+}
+
+#[cfg(test)]
+mod tests;

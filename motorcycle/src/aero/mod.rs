@@ -1,0 +1,5 @@
+//! Forces of the air.
+
+mod aerodynamics;
+
+pub use aerodynamics::{Aerodynamics, AerodynamicsDescription};

@@ -1,0 +1,5 @@
+//! Brakes.
+
+mod disc;
+
+pub use disc::{Brake, BrakeDescription};

@@ -1,0 +1,233 @@
+//! Signals of a single-track vehicle as a whole; no forces.
+//!
+//! ```text
+//! a_y = V_x r     κ = r/√(V_x² + V₀²)     τ_n = τ r/√(r² + r₀²)     p = |P_f − P_r|
+//! trail = (G − P_f)·x     normal trail = ((P_f − O) × s)·n
+//! ```
+//!
+//! | symbol | unit | |
+//! |---|---|---|
+//! | V_x, r | m/s, rad/s | speed of the base point along the heading, yaw rate, positive to the left |
+//! | a_y, κ | m/s², 1/m | lateral acceleration and curvature, positive in a turn to the left |
+//! | τ, τ_n | N m | torque of the rider; the same, positive when it acts in the sense of the yaw rate |
+//! | P_f, P_r | m | contact points of undeformed tires with the level road |
+//! | O, s, G | m | point of the steering axis, its upward direction, its intersection with the level road |
+//! | x, n | | forward along the contact, axis of the front wheel to the left |
+//! | V₀, r₀ | | 0.001 m/s, 0.001 rad/s: keep the signals differentiable at rest and in straight running |
+//!
+//! Source: V. Cossalter, *Motorcycle Dynamics* (2006), chapters 1, 4 and 7 (definitions). Range: level road; lean as in `mbody`'s contact geometry.
+
+use crate::signal::turning_axis;
+use mbody::assembly::{ElementDescription, Site};
+use mbody::contact::{Contact, Plane, Profile, Surface};
+use mbody::description::quantity::dimension::Length;
+use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
+use mbody::force::{Declared, Effort, Energy, Evaluated, ForceLaw, InputDeclared, OutputDeclared};
+use mbody::model::BodyIndex;
+use mbody::scalar::{SystemScalar, smooth::sabs};
+use mbody::spatial::Vec3;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Speed that keeps the curvature differentiable at rest, m/s.
+const SPEED_ROUNDING: f64 = 1e-3;
+/// Yaw rate over which the normalized torque turns its sign, rad/s.
+const YAW_RATE_ROUNDING: f64 = 1e-3;
+
+/// A wheel with the shape of its tire.
+#[derive(Clone, Debug)]
+pub struct Wheel {
+    /// The wheel.
+    pub body: BodyIndex,
+    /// Unit axis of the spin, to the left, in the wheel.
+    pub axis: Vec3<f64>,
+    /// Shape of the tire.
+    pub profile: Profile,
+}
+
+impl Wheel {
+    fn contact<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> (Contact<S>, Vec3<S>) {
+        let X = at.X_WB(self.body);
+        let axis = X.R.times_const(self.axis);
+        (Contact::with_plane(&self.profile, X.p, axis, &Plane::LEVEL.tangent_plane(X.p.x, X.p.y)), axis)
+    }
+}
+
+/// Observer of a single-track vehicle.
+#[derive(Clone, Debug)]
+pub struct SingleTrack {
+    /// The body on the vehicle base.
+    pub base: BodyIndex,
+    /// The body carried by the steering joint, whose origin lies on the steering axis.
+    pub steer: BodyIndex,
+    /// Unit axis of the steering, upward, in that body.
+    pub steer_axis: Vec3<f64>,
+    /// Front wheel.
+    pub front: Wheel,
+    /// Rear wheel.
+    pub rear: Wheel,
+    /// First part of the name of the input: `steer` reads `steer.torque`.
+    pub input: String,
+}
+
+impl ForceLaw for SingleTrack {
+    fn declare(&self, _element: &str) -> Declared {
+        let about = "torque of the rider on the handlebar, positive turns it to the left";
+        let torque = InputDeclared { name: format!("{}.torque", self.input), unit: "N m", about, nominal: 100.0, rate: None };
+        let output = |name: &str, unit, about| OutputDeclared { name: name.into(), unit, about };
+        let outputs = vec![
+            output("lateral_acceleration", "m/s²", "forward speed times yaw rate, positive to the left"),
+            output("curvature", "1/m", "yaw rate over speed, positive to the left"),
+            output("steer.torque_normalized", "N m", "steering torque, positive when it acts in the sense of the yaw rate"),
+            output("wheelbase", "m", "distance of the contact points"),
+            output("trail", "m", "from the front contact point forward to the steering axis, on the road"),
+            output("normal_trail", "m", "distance of the front contact point from the steering axis, positive behind it"),
+        ];
+        Declared { inputs: vec![torque], outputs, ..Default::default() }
+    }
+    fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {
+        let (V, r) = (at.speeds(self.base)[0], at.speeds(self.base)[2]);
+        out.output(0, V * r);
+        out.output(1, r / sabs(V, SPEED_ROUNDING));
+        out.output(2, at.input(0) * r / sabs(r, YAW_RATE_ROUNDING));
+
+        let ((front, axle), (rear, _)) = (self.front.contact(at), self.rear.contact(at));
+        out.output(3, (front.point - rear.point).norm());
+        let X = at.X_WB(self.steer);
+        let s = X.R.times_const(self.steer_axis);
+        let on_road = X.p - s.scaled(X.p.z / s.z);
+        out.output(4, (on_road - front.point).dot(front.frame.x));
+        out.output(5, (front.point - X.p).cross(s).dot(axle));
+    }
+    fn energy<S: SystemScalar>(&self, _at: &Evaluated<'_, S>) -> Energy<S> {
+        Energy::default()
+    }
+}
+
+/// A wheel with the shape of its tire.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WheelDescription {
+    /// Name of the joint of the wheel.
+    joint: String,
+    /// Radius of the tire.
+    radius: PositiveQuantity<Length>,
+    /// Radius of the cross-section of the tire; zero, a sharp edge, where left out.
+    crown_radius: Option<NonNegativeQuantity<Length>>,
+}
+
+/// Signals of a single-track vehicle as a whole.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SingleTrackDescription {
+    /// Name of the link that moves on the vehicle base.
+    base: String,
+    /// Name of the steering joint.
+    steer: String,
+    /// Front wheel.
+    front_wheel: WheelDescription,
+    /// Rear wheel.
+    rear_wheel: WheelDescription,
+    /// First part of the name of the torque of the rider: `steer`, also where left out, reads `steer.torque`.
+    input: Option<String>,
+}
+
+impl WheelDescription {
+    fn wheel(&self, key: &str, site: &mut Site<'_>) -> Option<Wheel> {
+        let body = site.joint_with(&format!("{key}.joint"), &self.joint, "rad")?;
+        match Profile::torus(self.radius.si(), self.crown_radius.map_or(0.0, Quantity::si)) {
+            Ok(profile) => Some(Wheel { body, axis: turning_axis(site.model(), body), profile }),
+            Err(error) => {
+                site.refuse(&format!("{key}.crown_radius"), "invalid_profile", error.to_string());
+                None
+            }
+        }
+    }
+}
+
+impl ElementDescription for SingleTrackDescription {
+    const KIND: &'static str = "single_track";
+    const ABOUT: &'static str =
+        "signals of a single-track vehicle: lateral_acceleration, curvature, steer.torque_normalized, wheelbase, trail, normal_trail";
+    const EXAMPLE: &'static str = "{ base: chassis, steer: steer, front_wheel: { joint: front_wheel, radius: 0.3 m, crown_radius: 60 mm }, \
+        rear_wheel: { joint: rear_wheel, radius: 0.32 m, crown_radius: 95 mm } }";
+    const TREE: &'static str = crate::EXAMPLE_TREE;
+    type Law = SingleTrack;
+    fn assemble(self, site: &mut Site<'_>) -> Option<SingleTrack> {
+        let base = site.link("base", &self.base);
+        let steer = site.joint_with("steer", &self.steer, "rad");
+        let (front, rear) = (self.front_wheel.wheel("front_wheel", site), self.rear_wheel.wheel("rear_wheel", site));
+        let (base, steer, front, rear) = (base?.0, steer?, front?, rear?);
+        let names: Vec<_> = site.model().body(base).joint.velocities().iter().map(|v| v.name).collect();
+        if names.first() != Some(&"forward_speed") || names.get(2) != Some(&"yaw_rate") {
+            let message = format!("link `{}` does not move on a vehicle base, so it has no forward speed and no yaw rate", self.base);
+            site.refuse("base", "wrong_link", message);
+            return None;
+        }
+        let steer_axis = turning_axis(site.model(), steer);
+        if (site.design_pose(steer).R * steer_axis).z <= 0.0 {
+            site.refuse("steer", "wrong_joint", format!("the axis of joint `{}` does not point upward", self.steer));
+            return None;
+        }
+        Some(SingleTrack { base, steer, steer_axis, front, rear, input: self.input.unwrap_or_else(|| "steer".to_owned()) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench_tree::{Bench, tree};
+    use mbody::force::Force;
+
+    fn observer() -> Bench {
+        let bodies = tree().1;
+        let left = Vec3::new(0.0, 1.0, 0.0);
+        let wheel = |body, radius, crown| Wheel { body, axis: left, profile: Profile::torus(radius, crown).unwrap() };
+        let law = SingleTrack {
+            base: bodies.chassis,
+            steer: bodies.front_upper,
+            steer_axis: Vec3::new(0.0, 0.0, 1.0),
+            front: wheel(bodies.front_rim, 0.3, 0.06),
+            rear: wheel(bodies.rear_rim, 0.32, 0.095),
+            input: "steer".into(),
+        };
+        Bench::new(vec![Force::new("handling", law)])
+    }
+
+    #[test]
+    fn design_geometry_is_that_of_the_drawing() {
+        let mut bench = observer();
+        bench.rest();
+        // 0.03 m offset and 0.49 m down an axis inclined by 0.42 rad from (1.2, 0.75)
+        let (sin, cos) = 0.42f64.sin_cos();
+        let axle = (1.2 + 0.03 * cos + 0.49 * sin, 0.75 + 0.03 * sin - 0.49 * cos);
+        let wheelbase = axle.0;
+        assert!((bench.output("wheelbase") - wheelbase).abs() < 1e-12);
+        let trail = 1.2 + 0.75 * sin / cos - wheelbase;
+        assert!((bench.output("trail") - trail).abs() < 1e-12);
+        assert!((bench.output("normal_trail") - trail * cos).abs() < 1e-12);
+    }
+
+    #[test]
+    fn signs_in_a_left_and_a_right_turn() {
+        let mut bench = observer();
+        bench.rest();
+        bench.set("chassis.forward_speed", 20.0);
+        bench.set("steer.torque", 3.0);
+        for (rate, normalized) in [(0.25, 3.0), (-0.25, -3.0), (0.0, 0.0)] {
+            bench.set("chassis.yaw_rate", rate);
+            assert!((bench.output("lateral_acceleration") - 20.0 * rate).abs() < 1e-12);
+            assert!((bench.output("curvature") - rate / 20.0).abs() < 1e-10);
+            // rounded over 0.001 rad/s: (0.001/0.25)²/2 of 3 N m
+            assert!((bench.output("steer.torque_normalized") - normalized).abs() < 3e-5);
+        }
+    }
+
+    #[test]
+    fn derivatives_are_exact_and_nothing_acts() {
+        let mut bench = observer();
+        bench.assert_derivatives_are_exact();
+        bench.assert_energy_balances();
+        assert!(bench.efforts().iter().all(|e| e.abs() == 0.0));
+    }
+}

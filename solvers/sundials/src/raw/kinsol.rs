@@ -1,0 +1,221 @@
+//! One KINSOL solver of fixed size, with everything that it refers to.
+
+use super::context::Context;
+use super::dense::{DenseSolver, matrix_entries_mut};
+use super::vector::{Vector, entries, entries_mut};
+use crate::guard::Guard;
+use problem::EvalError;
+use std::ffi::{c_int, c_long, c_void};
+use std::ptr;
+use sundials_sys::{
+    KIN_FIRST_SYSFUNC_ERR, KIN_INITIAL_GUESS_OK, KIN_LINESEARCH, KIN_LINESEARCH_BCFAIL, KIN_LINESEARCH_NONCONV, KIN_LINSOLV_NO_RECOVERY,
+    KIN_LSETUP_FAIL, KIN_LSOLVE_FAIL, KIN_MAXITER_REACHED, KIN_MXNEWT_5X_EXCEEDED, KIN_NONE, KIN_REPTD_SYSFUNC_ERR, KIN_STEP_LT_STPTOL,
+    KIN_SUCCESS, KIN_SYSFUNC_FAIL, KINCreate, KINFree, KINGetLastLinFlag, KINGetNumNonlinSolvIters, KINInit, KINLS_JACFUNC_ERR,
+    KINSetConstraints, KINSetFuncNormTol, KINSetJacFn, KINSetLinearSolver, KINSetMaxBetaFails, KINSetMaxNewtonStep, KINSetMaxSetupCalls,
+    KINSetNoResMon, KINSetNumMaxIters, KINSetScaledStepTol, KINSetUserData, KINSol, N_Vector, SUNMatrix,
+};
+
+/// What KINSOL calls back.
+pub trait System {
+    /// Writes f(x).
+    fn residual(&mut self, x: &[f64], f: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes ∂f/∂x, column after column.
+    fn jacobian(&mut self, x: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
+}
+
+/// How KINSOL makes progress from far away.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategy {
+    /// Newton steps shortened until the scaled residual decreases enough.
+    #[default]
+    LineSearch,
+    /// Full Newton steps, shortened only at bounds and where the residual cannot be evaluated.
+    FullStep,
+}
+
+/// What one solve is asked for; every figure in scaled quantities and above zero.
+pub struct Request {
+    /// How to make progress from far away.
+    pub strategy: Strategy,
+    /// Largest scaled residual that counts as solved.
+    pub residual_tolerance: f64,
+    /// Step below which KINSOL gives up.
+    pub step_tolerance: f64,
+    /// Largest number of iterations.
+    pub max_iterations: usize,
+    /// Longest step.
+    pub max_step: f64,
+}
+
+/// Why KINSOL came back, its return codes sorted by what they mean for the caller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The scaled residual is below the tolerance.
+    Solved,
+    /// The step became too small, or five steps in a row had the largest length allowed.
+    Stalled,
+    /// Too many iterations.
+    MaxIterations,
+    /// The Jacobian has no usable LU factors.
+    Singular,
+    /// The line search found no acceptable point, or a bound left no room.
+    NoDecrease,
+    /// The residual or the Jacobian failed.
+    Evaluation,
+}
+
+/// What one solve reports.
+pub struct Report {
+    /// Why KINSOL came back.
+    pub stop: Stop,
+    /// Iterations begun.
+    pub iterations: usize,
+    /// The last error that a callback returned, even if KINSOL recovered from it.
+    pub error: Option<EvalError>,
+}
+
+/// Owner of one KINSOL solver and of all objects that it refers to.
+pub struct Memory {
+    raw: *mut c_void,
+    x: Vector,
+    unknown_weight: Vector,
+    equation_weight: Vector,
+    constraints: Vector,
+    _dense: DenseSolver,
+    context: Context,
+}
+
+// SAFETY: SUNDIALS ties nothing to a thread. The clones of the context, which are not thread-safe among each other, all
+// live in private fields of this one owner and move together.
+unsafe impl Send for Memory {}
+
+/// What the callbacks find behind the user data pointer while `KINSol` runs.
+struct Call<'a> {
+    system: &'a mut dyn System,
+    guard: Guard,
+}
+
+impl Memory {
+    /// A solver for `size` unknowns, `size` above zero.
+    pub fn new(size: usize) -> Self {
+        assert!(size > 0, "a system of equations has at least one unknown");
+        let context = Context::new();
+        let x = Vector::zeros(&context, size);
+        let dense = DenseSolver::new(&context, &x);
+        // SAFETY: context, vector, matrix and linear solver are alive and are owned by the result.
+        let raw = unsafe {
+            let raw = KINCreate(context.raw());
+            assert!(!raw.is_null(), "out of memory while creating a KINSOL solver");
+            accept(KINInit(raw, Some(residual), x.raw()), &context);
+            accept(KINSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
+            accept(KINSetJacFn(raw, Some(jacobian)), &context);
+            // a fresh Jacobian in every iteration; then nobody need watch whether an old one still serves
+            accept(KINSetMaxSetupCalls(raw, 1), &context);
+            accept(KINSetNoResMon(raw, 1), &context);
+            raw
+        };
+        let zeros = || Vector::zeros(&context, size);
+        Self { raw, x, unknown_weight: zeros(), equation_weight: zeros(), constraints: zeros(), _dense: dense, context }
+    }
+
+    /// Number of unknowns.
+    pub fn size(&self) -> usize {
+        self.x.as_slice().len()
+    }
+
+    /// The start of the iteration, to be written before a solve.
+    pub fn start_mut(&mut self) -> &mut [f64] {
+        self.x.as_mut_slice()
+    }
+
+    /// Reciprocals of the typical magnitudes of the unknowns, to be written before a solve.
+    pub fn unknown_weight_mut(&mut self) -> &mut [f64] {
+        self.unknown_weight.as_mut_slice()
+    }
+
+    /// Reciprocals of the typical magnitudes of the equations, to be written before a solve.
+    pub fn equation_weight_mut(&mut self) -> &mut [f64] {
+        self.equation_weight.as_mut_slice()
+    }
+
+    /// Codes of the bounds, to be written before a solve: 0 free, ±1 weak, ±2 strict.
+    pub fn constraints_mut(&mut self) -> &mut [f64] {
+        self.constraints.as_mut_slice()
+    }
+
+    /// Runs KINSOL from the start that was written. A panic of the system goes on here.
+    pub fn solve(&mut self, system: &mut dyn System, request: &Request) -> Report {
+        let max_iterations = c_long::try_from(request.max_iterations).unwrap_or(c_long::MAX);
+        let strategy = match request.strategy {
+            Strategy::LineSearch => KIN_LINESEARCH,
+            Strategy::FullStep => KIN_NONE,
+        };
+        let mut call = Call { system, guard: Guard::default() };
+        // SAFETY: all handles are owned by self; `call` outlives KINSol and is forgotten by KINSOL right after it.
+        let (code, iterations) = unsafe {
+            accept(KINSetFuncNormTol(self.raw, request.residual_tolerance), &self.context);
+            accept(KINSetScaledStepTol(self.raw, request.step_tolerance), &self.context);
+            accept(KINSetNumMaxIters(self.raw, max_iterations), &self.context);
+            accept(KINSetMaxBetaFails(self.raw, max_iterations), &self.context);
+            accept(KINSetMaxNewtonStep(self.raw, request.max_step), &self.context);
+            // never a null pointer instead of zeros: 7.1.1 would keep using the vector that it has freed
+            accept(KINSetConstraints(self.raw, self.constraints.raw()), &self.context);
+            accept(KINSetUserData(self.raw, ptr::from_mut(&mut call).cast()), &self.context);
+            let code = KINSol(self.raw, self.x.raw(), strategy, self.unknown_weight.raw(), self.equation_weight.raw());
+            KINSetUserData(self.raw, ptr::null_mut());
+            let mut iterations: c_long = 0;
+            KINGetNumNonlinSolvIters(self.raw, &mut iterations);
+            (code, iterations)
+        };
+        let error = call.guard.release();
+        Report { stop: self.stop(code), iterations: usize::try_from(iterations).unwrap_or(0), error }
+    }
+
+    /// Meaning of a return code of `KINSol`.
+    fn stop(&self, code: c_int) -> Stop {
+        match code {
+            KIN_SUCCESS | KIN_INITIAL_GUESS_OK => Stop::Solved,
+            KIN_STEP_LT_STPTOL | KIN_MXNEWT_5X_EXCEEDED => Stop::Stalled,
+            KIN_MAXITER_REACHED => Stop::MaxIterations,
+            KIN_LINESEARCH_NONCONV | KIN_LINESEARCH_BCFAIL => Stop::NoDecrease,
+            KIN_SYSFUNC_FAIL | KIN_FIRST_SYSFUNC_ERR | KIN_REPTD_SYSFUNC_ERR => Stop::Evaluation,
+            KIN_LSETUP_FAIL if self.jacobian_failed() => Stop::Evaluation,
+            KIN_LSETUP_FAIL | KIN_LSOLVE_FAIL | KIN_LINSOLV_NO_RECOVERY => Stop::Singular,
+            refusal => panic!("KINSOL refused with code {refusal}: {}", self.context.message()),
+        }
+    }
+
+    /// Whether the last set-up of the linear solver failed in our Jacobian rather than in its LU factorization.
+    fn jacobian_failed(&self) -> bool {
+        let mut flag: c_long = 0;
+        // SAFETY: `raw` is a living solver.
+        unsafe { KINGetLastLinFlag(self.raw, &mut flag) };
+        flag == c_long::from(KINLS_JACFUNC_ERR)
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        // SAFETY: created by KINCreate and freed once, before the objects that it refers to.
+        unsafe { KINFree(&mut self.raw) }
+    }
+}
+
+/// Holds the set-up calls to their contract: they fail only for arguments that this module never passes, or without memory.
+fn accept(code: c_int, context: &Context) {
+    assert!(code == KIN_SUCCESS, "KINSOL refused its set-up with code {code}: {}", context.message());
+}
+
+extern "C" fn residual(x: N_Vector, f: N_Vector, call: *mut c_void) -> c_int {
+    // SAFETY: KINSOL passes the pointer set in `solve` and two different serial vectors that it leaves alone meanwhile.
+    let (call, x, f) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), entries_mut(f)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.residual(x, f))
+}
+
+extern "C" fn jacobian(x: N_Vector, _f: N_Vector, matrix: SUNMatrix, call: *mut c_void, _: N_Vector, _: N_Vector) -> c_int {
+    // SAFETY: KINSOL passes the pointer set in `solve`, a serial vector and the dense matrix, and leaves both alone meanwhile.
+    let (call, x, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), matrix_entries_mut(matrix)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.jacobian(x, matrix))
+}
