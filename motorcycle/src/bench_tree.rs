@@ -32,7 +32,7 @@ pub fn builder() -> (ModelBuilder, Bodies) {
     let chassis = add(
         "chassis",
         BodyIndex::WORLD,
-        "",
+        "chassis",
         Joint::new(VehicleBase),
         Pose::identity(),
         mass(200.0, [0.7, 0.0, 0.6], 20.0, 35.0, 25.0, -2.0),
