@@ -11,11 +11,13 @@
 //! Source: ours.
 
 use super::law::{AnyTireLaw, TireLaw};
-use mbody::scalar::smooth::{splus, step};
+use mbody::scalar::smooth::{sabs, splus, step};
 use mbody::scalar::{Real, SystemScalar};
 
 /// Depth over which the road takes hold, m.
 const WIDTH: f64 = 0.5e-3;
+/// Relaxation length that remains in the air, m: the rows of slips stay regular. Changes a length of 0.1 m by 5·10⁻⁷ of itself.
+const SHORTEST: f64 = 1e-4;
 
 /// A linear spring with a linear damper.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,13 +91,19 @@ pub enum RelaxationLength {
 }
 
 impl RelaxationLength {
-    /// The length, m.
+    /// The length, m; forms that may vanish with the load are kept above [`SHORTEST`].
     #[inline]
     pub(super) fn at<S: SystemScalar>(&self, law: &AnyTireLaw, load: S, camber: S, speed: S) -> S {
         match self {
             Self::Constant(length) => S::from_f64(*length),
-            Self::LoadPolynomial(coefficients) => coefficients.iter().rev().fold(S::zero(), |sum, c| sum * load + *c),
-            Self::CorneringStiffness([c0, c1, c2]) => law.cornering_stiffness(load, camber) * ((speed * *c2 + *c1) * speed + *c0),
+            Self::LoadPolynomial(coefficients) => {
+                let length = coefficients.iter().rev().fold(S::zero(), |sum, c| sum * load + *c);
+                sabs(length, SHORTEST)
+            }
+            Self::CorneringStiffness([c0, c1, c2]) => {
+                let per_stiffness = (speed * *c2 + *c1) * speed + *c0;
+                sabs(law.cornering_stiffness(load, camber) * per_stiffness, SHORTEST)
+            }
         }
     }
 }

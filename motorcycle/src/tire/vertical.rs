@@ -15,7 +15,7 @@
 //!
 //! Source: H. B. Pacejka, *Tire and Vehicle Dynamics*, chapter 7 (slip); R. S. Sharp, J. Mech. Eng. Sci. 13 (1971) 316–329 (force);
 //! the elastic form after R. Lot, Meccanica 39 (2004) 207–220, with the spring in the plane of the road.
-//! Range: relaxation lengths that are not negative; a polynomial of load may become so far from the loads that it was fitted at.
+//! Range: a polynomial of load holds near the loads that it was fitted at. A lagged force outlives the load by σ/V*.
 
 use super::carcass::{Elastic, RelaxationLength};
 use super::deformable::CARCASS_LATERAL;

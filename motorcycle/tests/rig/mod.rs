@@ -17,7 +17,7 @@ pub fn vehicle(urdf: &str) -> Model {
     let robot = robot.unwrap_or_else(|| panic!("{findings:?}"));
     let mut builder = ModelBuilder::new();
     let mass = |name: &str| robot.link(name).and_then(|l| l.mass).unwrap_or(MassProperties::NONE);
-    builder.body(&robot.root, BodyIndex::WORLD, "", Joint::new(VehicleBase), Pose::identity(), mass(&robot.root)).expect("a base");
+    builder.body(&robot.root, BodyIndex::WORLD, &robot.root, Joint::new(VehicleBase), Pose::identity(), mass(&robot.root)).expect("a base");
     for joint in &robot.joints {
         let (parent, X) = builder.find(&joint.parent).expect("parents first");
         let motion = match joint.kind {
