@@ -88,8 +88,8 @@ pub struct Prescribed {
     pub values: Vec<f64>,
 }
 
-/// The options as values.
-#[derive(Clone, Debug)]
+/// The options as values; the default asks for the static pose.
+#[derive(Clone, Debug, Default)]
 pub struct Request {
     /// Speeds; none: static.
     pub speed: Option<Prescribed>,
@@ -194,6 +194,17 @@ pub struct Plan {
     pub easy: fn(&[f64]) -> Vec<f64>,
     /// Largest steps of the goals.
     pub largest_steps: Vec<f64>,
+}
+
+impl Plan {
+    /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the plant there.
+    pub fn start_from(&mut self, plant: &dyn Plant, pose: &[f64]) {
+        for (unknown, &value) in plant.unknowns().iter().zip(pose) {
+            if unknown.kind == UnknownKind::Position && !unknown.cyclic {
+                self.trim.guess(&unknown.signal.name, value);
+            }
+        }
+    }
 }
 
 /// The name of the base link: the owner of `<base>.forward_speed`.

@@ -58,6 +58,7 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
         request.speed.iter().chain(request.turn.as_ref().map(|t| &t.1)).chain(request.acceleration.as_ref()).collect();
     let given = prescribed.iter().map(|p| Given::new(p.name, p.unit)).collect();
     let goals = grid(request);
+    let job = Job { request, system, backend, rest: rest_pose(system, backend) };
     let progress = Progress::new(what, goals.len());
     // a line is what one task walks along; lines are independent
     let line = request.turn.as_ref().map_or(1, |t| t.1.values.len()) * request.acceleration.as_ref().map_or(1, |a| a.values.len());
@@ -66,7 +67,7 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
         .map(|line| {
             let mut points = Vec::new();
             for goal in line {
-                points.extend(point(request, system, backend, *goal)?);
+                points.extend(job.point(*goal)?);
                 progress.advance();
             }
             Ok(points)
@@ -101,51 +102,81 @@ fn grid(request: &Request) -> Vec<Goal> {
     goals
 }
 
-/// The steady states at one grid point: one, or for a given steering torque as many as there are.
-fn point(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend, goal: Goal) -> Result<Vec<Point>, Failure> {
-    let given: Vec<f64> = [goal.speed, goal.turn, goal.acceleration].into_iter().flatten().collect();
-    let found = match (goal.speed, request.top_speed) {
-        (None, false) => vec![at_rest(request, system, backend)?],
-        (speed, _) => {
-            let speed = speed.unwrap_or(50.0);
-            match request.turn.as_ref().map(|t| t.0) {
-                Some(Turn::SteerTorque) => with_torque(request, system, backend, speed, goal)?,
-                _ => vec![moving(request, system, backend, speed, goal)?],
-            }
-        }
-    };
-    let to_point =
-        |p: TrimPoint| Point { given: given.clone(), values: values(&p), ending: p.ending, iterations: p.iterations, residual: p.residual };
-    Ok(found.into_iter().map(to_point).collect())
+/// What every point of a run shares.
+struct Job<'a> {
+    request: &'a Request,
+    system: &'a Arc<System>,
+    backend: &'a AlgebraicBackend,
+    /// Unknowns of the static pose: where the first guess of the shape comes from.
+    rest: Vec<f64>,
 }
 
-fn at_rest(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend) -> Result<TrimPoint, Failure> {
+/// The static pose without any wishes; the design pose where there is none.
+fn rest_pose(system: &Arc<System>, backend: &AlgebraicBackend) -> Vec<f64> {
+    let design = system.unknowns().iter().map(|u| u.design).collect();
     let mut plant = TreePlant::new(system.clone());
-    let plan = request.at_rest(&plant)?;
-    walk(&mut plant, &plan, backend, &[]).map_err(Failure::Trim)
+    let Ok(plan) = Request::default().at_rest(&plant) else { return design };
+    match walk(&mut plant, &plan, backend, &[]) {
+        Ok(point) if point.solved => point.y,
+        _ => design,
+    }
 }
 
-/// Walks from straight running at the same speed to the goal.
-fn moving(request: &Request, system: &Arc<System>, backend: &AlgebraicBackend, speed: f64, goal: Goal) -> Result<TrimPoint, Failure> {
-    let turn = match (request.turn.as_ref().map(|t| t.0), goal.turn) {
-        (Some(Turn::Radius), Some(radius)) => 1.0 / radius,
-        (_, turn) => turn.unwrap_or(0.0),
-    };
-    let mut goals = if request.top_speed { vec![1.0, turn] } else { vec![speed, turn] };
-    goals.extend(goal.acceleration);
-    let with = |drive| -> Result<TrimPoint, Failure> {
-        let mut plant = TreePlant::new(system.clone());
-        let plan = request.moving(&plant, system, drive, speed)?;
-        walk(&mut plant, &plan, backend, &goals).map_err(Failure::Trim)
-    };
-    if goal.acceleration.is_none_or(|a| a >= 0.0) {
-        return with(Drive::Engine);
+impl Job<'_> {
+    /// The steady states at one grid point: one, or for a given steering torque as many as there are.
+    fn point(&self, goal: Goal) -> Result<Vec<Point>, Failure> {
+        let request = self.request;
+        let given: Vec<f64> = [goal.speed, goal.turn, goal.acceleration].into_iter().flatten().collect();
+        let found = match (goal.speed, request.top_speed) {
+            (None, false) => vec![self.at_rest()?],
+            (speed, _) => {
+                let speed = speed.unwrap_or(50.0);
+                match request.turn.as_ref().map(|t| t.0) {
+                    Some(Turn::SteerTorque) => self.with_torque(speed, goal)?,
+                    _ => vec![self.moving(speed, goal)?],
+                }
+            }
+        };
+        let to_point = |p: TrimPoint| Point {
+            given: given.clone(),
+            values: values(&p),
+            ending: p.ending,
+            iterations: p.iterations,
+            residual: p.residual,
+        };
+        Ok(found.into_iter().map(to_point).collect())
     }
-    // less braking than drag and rolling resistance do by themselves still needs the engine
-    let braked = with(Drive::Brakes)?;
-    match braked.solved && torque_is_negative(&braked, system) {
-        true => with(Drive::Engine),
-        false => Ok(braked),
+
+    fn at_rest(&self) -> Result<TrimPoint, Failure> {
+        let mut plant = TreePlant::new(self.system.clone());
+        let plan = self.request.at_rest(&plant)?;
+        walk(&mut plant, &plan, self.backend, &[]).map_err(Failure::Trim)
+    }
+
+    /// Walks from straight running at the same speed to the goal.
+    fn moving(&self, speed: f64, goal: Goal) -> Result<TrimPoint, Failure> {
+        let (request, system) = (self.request, self.system);
+        let turn = match (request.turn.as_ref().map(|t| t.0), goal.turn) {
+            (Some(Turn::Radius), Some(radius)) => 1.0 / radius,
+            (_, turn) => turn.unwrap_or(0.0),
+        };
+        let mut goals = if request.top_speed { vec![1.0, turn] } else { vec![speed, turn] };
+        goals.extend(goal.acceleration);
+        let with = |drive| -> Result<TrimPoint, Failure> {
+            let mut plant = TreePlant::new(system.clone());
+            let mut plan = request.moving(&plant, system, drive, speed)?;
+            plan.start_from(&plant, &self.rest);
+            walk(&mut plant, &plan, self.backend, &goals).map_err(Failure::Trim)
+        };
+        if goal.acceleration.is_none_or(|a| a >= 0.0) {
+            return with(Drive::Engine);
+        }
+        // less braking than drag and rolling resistance do by themselves still needs the engine
+        let braked = with(Drive::Brakes)?;
+        match braked.solved && torque_is_negative(&braked, system) {
+            true => with(Drive::Engine),
+            false => Ok(braked),
+        }
     }
 }
 
@@ -181,74 +212,66 @@ fn walk(plant: &mut TreePlant, plan: &Plan, backend: &AlgebraicBackend, goals: &
     Ok(point)
 }
 
-/// All leans at which the given steering torque holds: sign changes along a sweep of the lean, each then solved for.
-fn with_torque(
-    request: &Request,
-    system: &Arc<System>,
-    backend: &AlgebraicBackend,
-    speed: f64,
-    goal: Goal,
-) -> Result<Vec<TrimPoint>, Failure> {
-    let torque = goal.turn.unwrap_or(0.0);
-    let lean_request = Request { turn: Some((Turn::Lean, Prescribed { name: "lean", unit: "rad", values: vec![] })), ..request.clone() };
-    let step = 0.05;
-    let mut found = Vec::new();
-    let at = |system: &System, name: &str| system.inputs().iter().position(|i| i.signal.name == name);
-    let Some(torque_at) = at(system, "steer.torque") else {
-        return Err(Failure::Argument("this model has no input `steer.torque`".to_owned()));
-    };
-    for side in [1.0, -1.0] {
-        let mut before: Option<(f64, f64)> = None;
-        for k in 0..=20 {
-            let lean = side * step * f64::from(k);
-            let trial = moving(&lean_request, system, backend, speed, Goal { turn: Some(lean), ..goal })?;
-            if !trial.solved {
+impl Job<'_> {
+    /// All leans at which the given steering torque holds: sign changes along a sweep of the lean, each then solved for.
+    fn with_torque(&self, speed: f64, goal: Goal) -> Result<Vec<TrimPoint>, Failure> {
+        let system = self.system;
+        let torque = goal.turn.unwrap_or(0.0);
+        let by_lean =
+            Request { turn: Some((Turn::Lean, Prescribed { name: "lean", unit: "rad", values: vec![] })), ..self.request.clone() };
+        let job = Job { request: &by_lean, rest: self.rest.clone(), ..*self };
+        let step = 0.05;
+        let mut found = Vec::new();
+        let at = |system: &System, name: &str| system.inputs().iter().position(|i| i.signal.name == name);
+        let Some(torque_at) = at(system, "steer.torque") else {
+            return Err(Failure::Argument("this model has no input `steer.torque`".to_owned()));
+        };
+        for side in [1.0, -1.0] {
+            let mut before: Option<(f64, f64)> = None;
+            for k in 0..=20 {
+                let lean = side * step * f64::from(k);
+                let trial = job.moving(speed, Goal { turn: Some(lean), ..goal })?;
+                if !trial.solved {
+                    break;
+                }
+                let off = trial.u[torque_at] - torque;
+                let crossing = before.is_some_and(|(_, b)| b * off < 0.0) || (k == 0 && off.abs() < 1e-9 && side > 0.0);
+                if crossing {
+                    let bracket = (before.unwrap_or((lean, off)), (lean, off));
+                    found.push(job.refine((speed, torque), goal, bracket)?);
+                }
+                // a root at the very start is told once, and is no side of a bracket
+                before = if off.abs() < 1e-9 { None } else { Some((lean, off)) };
+            }
+        }
+        if found.is_empty() {
+            let mut straight = job.moving(speed, Goal { turn: Some(0.0), ..goal })?;
+            straight.solved = false;
+            straight.ending =
+                Ending::NotConverged { because: format!("no lean from -1 to 1 rad holds itself with a steering torque of {torque} N m") };
+            found.push(straight);
+        }
+        found.sort_by(|a, b| a.goals[1].1.total_cmp(&b.goals[1].1));
+        Ok(found)
+    }
+
+    /// Brent-free refinement: secant steps inside a bracket of the lean until the torque holds to 1e-10 N m.
+    fn refine(&self, (speed, torque): (f64, f64), goal: Goal, mut bracket: ((f64, f64), (f64, f64))) -> Result<TrimPoint, Failure> {
+        let torque_at = self.system.inputs().iter().position(|i| i.signal.name == "steer.torque").unwrap_or_default();
+        let solve = |lean: f64| self.moving(speed, Goal { turn: Some(lean), ..goal });
+        let mut point = solve(bracket.1.0)?;
+        for round in 0..60 {
+            let ((a, fa), (b, fb)) = bracket;
+            let width = b - a;
+            if (point.u[torque_at] - torque).abs() < 1e-10 || width.abs() < 1e-13 {
                 break;
             }
-            let off = trial.u[torque_at] - torque;
-            let crossing = before.is_some_and(|(_, b)| b * off < 0.0) || (k == 0 && off.abs() < 1e-9 && side > 0.0);
-            if crossing {
-                let bracket = (before.unwrap_or((lean, off)), (lean, off));
-                found.push(refine(&lean_request, system, backend, (speed, torque), goal, bracket)?);
-            }
-            // a root at the very start is told once, and is no side of a bracket
-            before = if off.abs() < 1e-9 { None } else { Some((lean, off)) };
+            // Illinois-like: every third step halves the bracket
+            let lean = if round % 3 == 2 { a + 0.5 * width } else { b - fb * width / (fb - fa) };
+            point = solve(lean)?;
+            let f = point.u[torque_at] - torque;
+            bracket = if fa * f < 0.0 { ((a, fa), (lean, f)) } else { ((lean, f), (b, fb)) };
         }
+        Ok(point)
     }
-    if found.is_empty() {
-        let mut straight = moving(&lean_request, system, backend, speed, Goal { turn: Some(0.0), ..goal })?;
-        straight.solved = false;
-        straight.ending =
-            Ending::NotConverged { because: format!("no lean from -1 to 1 rad holds itself with a steering torque of {torque} N m") };
-        found.push(straight);
-    }
-    found.sort_by(|a, b| a.goals[1].1.total_cmp(&b.goals[1].1));
-    Ok(found)
-}
-
-/// Brent-free refinement: secant steps inside a bracket of the lean until the torque holds to 1e-10 N m.
-fn refine(
-    request: &Request,
-    system: &Arc<System>,
-    backend: &AlgebraicBackend,
-    (speed, torque): (f64, f64),
-    goal: Goal,
-    mut bracket: ((f64, f64), (f64, f64)),
-) -> Result<TrimPoint, Failure> {
-    let torque_at = system.inputs().iter().position(|i| i.signal.name == "steer.torque").unwrap_or_default();
-    let solve = |lean: f64| moving(request, system, backend, speed, Goal { turn: Some(lean), ..goal });
-    let mut point = solve(bracket.1.0)?;
-    for round in 0..60 {
-        let ((a, fa), (b, fb)) = bracket;
-        let width = b - a;
-        if (point.u[torque_at] - torque).abs() < 1e-10 || width.abs() < 1e-13 {
-            break;
-        }
-        // Illinois-like: every third step halves the bracket
-        let lean = if round % 3 == 2 { a + 0.5 * width } else { b - fb * width / (fb - fa) };
-        point = solve(lean)?;
-        let f = point.u[torque_at] - torque;
-        bracket = if fa * f < 0.0 { ((a, fa), (lean, f)) } else { ((lean, f), (b, fb)) };
-    }
-    Ok(point)
 }

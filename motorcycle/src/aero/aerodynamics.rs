@@ -8,7 +8,7 @@
 //! | symbol | unit | |
 //! |---|---|---|
 //! | v_P, w, v | m/s | velocity of the point, of the air, and of the point against the air |
-//! | V₀ | m/s | 0.001: keeps the drag differentiable at rest |
+//! | V₀ | m/s | 1e-6: keeps the drag differentiable at rest |
 //! | ρ | kg/m³ | density of the air |
 //! | C_D A, C_L A, C_S A | m² | drag, lift and side-force area; C_S per unit of the sine of the angle of attack from the side |
 //! | C_P A L | m³ | pitching moment by dynamic pressure; **positive raises the nose**, hence the minus (y turns the nose down) |
@@ -31,7 +31,7 @@ use serde::Deserialize;
 pub const STANDARD_DENSITY: f64 = 1.225;
 
 /// Speed that keeps the drag differentiable at rest, m/s.
-const ROUNDING: f64 = 1e-3;
+const ROUNDING: f64 = 1e-6;
 
 /// Forces of the air at a point of a body.
 #[derive(Clone, Debug)]

@@ -73,21 +73,24 @@ impl EngineMap {
         let curves = settings.iter().zip(rows).map(row).collect::<Result<Vec<_>, _>>()?;
         let map = Self { settings: settings.to_vec(), rows: curves };
         // between its points a monotone cubic may still cross a neighbor, and so may its continuation: look there too
-        let (first, last) = map.rows[0].range();
+        let (first_beyond, last_beyond) = map.continuation();
         let inside = speeds.windows(2).flat_map(|s| (0..8).map(|part| s[0] + (s[1] - s[0]) * f64::from(part) / 8.0));
-        for speed in inside.chain([last, map.continuation().0, map.continuation().1]) {
+        for speed in inside.chain([first_beyond, last_beyond]) {
             let torques: Vec<f64> = map.rows.iter().map(|row| row.value(speed)).collect();
             if let Some(k) = (1..torques.len()).find(|&k| torques[k] <= torques[k - 1]) {
-                return Err(EngineMapError::NotRising { speed: speed.clamp(first, last), below: settings[k - 1], above: settings[k] });
+                return Err(EngineMapError::NotRising { speed, below: settings[k - 1], above: settings[k] });
             }
         }
         Ok(map)
     }
 
-    /// Speeds between which the curves are evaluated: the table and a tenth of its range on either side.
+    /// Part of the range of speeds by which the curves go on beyond the table.
+    const BEYOND: f64 = 0.02;
+
+    /// Speeds between which the curves are evaluated.
     fn continuation(&self) -> (f64, f64) {
         let (first, last) = self.rows[0].range();
-        let beyond = 0.1 * (last - first);
+        let beyond = Self::BEYOND * (last - first);
         (first - beyond, last + beyond)
     }
 
@@ -95,7 +98,7 @@ impl EngineMap {
     #[inline]
     fn leveled<S: Real>(&self, speed: S) -> S {
         let (first, last) = self.rows[0].range();
-        let beyond = 0.1 * (last - first);
+        let beyond = Self::BEYOND * (last - first);
         let end = speed.value().clamp(first, last);
         if end == speed.value() {
             return speed;
