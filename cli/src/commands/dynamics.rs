@@ -1,6 +1,6 @@
 //! `dynamics`: inverse and forward dynamics, mass matrix, energies and poses at given states, for any mechanism.
 
-use super::{Kind, print, read};
+use super::{Kind, read};
 use crate::arguments::ModelArguments;
 use crate::{Context, Exit, Failure, model};
 use clap::{ArgMatches, Args, Command};
@@ -70,7 +70,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         "fastbike": env!("CARGO_PKG_VERSION"), "command": "dynamics", "model": loaded.name,
         "order": order.names, "states": results, "warnings": [],
     });
-    print(format!("{report:#}\n").as_bytes())?;
+    context.console.print(format!("{report:#}\n").as_bytes())?;
     Ok(Exit::Done)
 }
 

@@ -1,7 +1,7 @@
 //! `map`: steady states over a grid of two prescribed quantities, as a contour figure.
 
 use super::trim::{OwnedReport, angle_unit, exit, report};
-use super::{Kind, print, read};
+use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments};
 use crate::output::Options;
 use crate::plan::TrimArguments;
@@ -38,15 +38,13 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "map")?;
     let report = report("map", &loaded.name, std::slice::from_ref(&arguments.show), steady)?.in_axes(arguments.output.axes);
     let figure = arguments.output.plot.is_some().then(|| figure(&report, &arguments.show)).transpose()?;
-    keep::results(&arguments.output, &report, figure.as_ref(), &arguments.model)?;
+    keep::results(context, &arguments.output, &report, figure.as_ref(), &arguments.model)?;
     let mut text = Vec::new();
     let options = Options { palette: context.palette, angles: arguments.output.angles() };
     let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
     written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
-    print(&text)?;
-    for warning in &report.warnings {
-        eprintln!("warning: {warning}");
-    }
+    context.console.print(&text)?;
+    context.console.warn(&report.warnings);
     Ok(exit(&report))
 }
 

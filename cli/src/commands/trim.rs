@@ -1,6 +1,6 @@
 //! `trim`: steady state by inverse dynamics.
 
-use super::{Kind, print, read};
+use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments};
 use crate::output::{self, Options, Report};
 use crate::plan::TrimArguments;
@@ -49,11 +49,9 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
     written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
     let figure = arguments.output.plot.is_some().then(|| figure(&report)).transpose()?;
-    keep::results(&arguments.output, &report, figure.as_ref(), &arguments.model)?;
-    print(&text)?;
-    for warning in &report.warnings {
-        eprintln!("warning: {warning}");
-    }
+    keep::results(context, &arguments.output, &report, figure.as_ref(), &arguments.model)?;
+    context.console.print(&text)?;
+    context.console.warn(&report.warnings);
     Ok(exit(&report))
 }
 
