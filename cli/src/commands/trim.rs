@@ -2,13 +2,13 @@
 
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments};
-use crate::output::{self, Options, Report};
+use crate::output::{self, Options, Report, Variant};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure, keep, model};
 use clap::{ArgMatches, Args, Command};
-use problem::Ending;
+use problem::{Ending, Signal};
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "trim", command, run };
@@ -21,6 +21,9 @@ struct Arguments {
     trim: TrimArguments,
     #[command(flatten)]
     output: OutputArguments,
+    /// The same analysis for a variant: another description, or `PATH=VALUE` as in --set (repeatable)
+    #[arg(long, value_name = "FILE|PATH=VALUE")]
+    versus: Vec<String>,
     /// Signals in the table of a sweep (repeatable); the figure shows them too
     #[arg(long, value_name = "SIGNAL")]
     show: Vec<String>,
@@ -43,7 +46,11 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     steady
         .warnings
         .extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
-    let report = report("trim", &loaded.name, &arguments.show, steady)?.in_axes(arguments.output.axes);
+    let mut report = report("trim", &loaded.name, &arguments.show, steady)?;
+    for variant in &arguments.versus {
+        report.variants.push(versus(variant, &arguments, &report.steady.signals, context)?);
+    }
+    let report = report.in_axes(arguments.output.axes);
     let mut text = Vec::new();
     let options = Options { palette: context.palette, angles: arguments.output.angles() };
     let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
@@ -53,6 +60,23 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     context.console.print(&text)?;
     context.console.warn(&report.warnings);
     Ok(exit(&report))
+}
+
+/// The same analysis for a variant, its values in the order of the base's signals.
+fn versus(variant: &str, arguments: &Arguments, signals: &[Signal], context: &Context) -> Result<Variant, Failure> {
+    let mut model = arguments.model.clone();
+    match variant.contains('=') {
+        true => model.set.push(variant.to_owned()),
+        false => model.model = variant.to_owned(),
+    }
+    let loaded = model::load(&model, context)?;
+    let steady = steady::run(&arguments.trim.request()?, &loaded.assembled.system, &arguments.trim.backend, variant)?;
+    let order: Vec<Option<usize>> = signals.iter().map(|s| steady.signals.iter().position(|v| v.name == s.name)).collect();
+    let mut points = steady.points;
+    for point in points.iter_mut().filter(|p| !p.values.is_empty()) {
+        point.values = order.iter().map(|k| k.map_or(f64::NAN, |k| point.values[k])).collect();
+    }
+    Ok(Variant { name: variant.to_owned(), points })
 }
 
 /// `--gear` is a parameter of the element `engine`.
@@ -81,6 +105,8 @@ pub struct OwnedReport {
     shown: Vec<usize>,
     /// Points in the axes asked for.
     pub points: Vec<output::Point>,
+    /// Variants in the axes asked for.
+    pub variants: Vec<Variant>,
     /// What the reader should know.
     pub warnings: Vec<String>,
 }
@@ -91,6 +117,7 @@ impl OwnedReport {
         let mut report = Report::new(self.command, &self.model, self.steady.given.clone(), &self.steady.signals);
         report.points = self.points.clone();
         report.shown = self.shown.clone();
+        report.variants = self.variants.clone();
         report.warnings = self.warnings.clone();
         report.axes = self.axes;
         report
@@ -99,8 +126,9 @@ impl OwnedReport {
     /// Refers all values to other axes.
     #[must_use]
     pub fn in_axes(mut self, axes: output::Axes) -> Self {
-        let turned = self.view().in_axes(axes).points;
-        self.points = turned;
+        let turned = self.view().in_axes(axes);
+        let (points, variants) = (turned.points, turned.variants);
+        (self.points, self.variants) = (points, variants);
         self.axes = axes;
         self
     }
@@ -126,7 +154,7 @@ pub fn report(command: &'static str, model: &str, show: &[String], mut steady: S
     }
     let points = std::mem::take(&mut steady.points);
     let warnings = std::mem::take(&mut steady.warnings);
-    Ok(OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, warnings })
+    Ok(OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, variants: Vec::new(), warnings })
 }
 
 /// Lines over the quantity that is swept, one panel per shown signal.
@@ -147,9 +175,12 @@ fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
         let signal = &report.steady.signals[s];
         let (value_factor, value_unit) = angle_unit(&signal.unit);
         let mut curves: Vec<Curve> = Vec::new();
-        for point in &report.points {
-            // a second swept quantity names the curves
-            let name: Vec<String> = swept[1..].iter().map(|&k| label(&given[k].name, &given[k].unit, point.given[k])).collect();
+        let base = report.points.iter().map(|p| (if report.variants.is_empty() { "" } else { "base" }, p));
+        let variants = report.variants.iter().flat_map(|v| v.points.iter().map(move |p| (v.name.as_str(), p)));
+        for (variant, point) in base.chain(variants) {
+            // variants and a second swept quantity name the curves
+            let labels = swept[1..].iter().map(|&k| label(&given[k].name, &given[k].unit, point.given[k]));
+            let name: Vec<String> = labels.chain((!variant.is_empty()).then(|| variant.to_owned())).collect();
             let name = name.join(", ");
             let at = (point.given[x] * factor, point.value(s) * value_factor);
             match curves.iter_mut().find(|c| c.name == name) {
