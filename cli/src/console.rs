@@ -59,9 +59,7 @@ impl Console {
             return Ok(());
         }
         match std::io::stdout().lock().write_all(text) {
-            Err(e) if e.kind() != ErrorKind::BrokenPipe => {
-                Err(Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })
-            }
+            Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Write { path: "standard output".to_owned(), cause: e.to_string() }),
             _ => Ok(()),
         }
     }

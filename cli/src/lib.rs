@@ -18,6 +18,7 @@ pub mod steady;
 
 use console::{Captured, Console};
 use mbody::assembly::Kinds;
+use mbody::description::finding::Finding;
 use output::Palette;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -69,6 +70,12 @@ pub enum Failure {
     Plot(#[from] plot::PlotError),
 }
 
+impl From<Finding> for Failure {
+    fn from(finding: Finding) -> Self {
+        Self::Findings(finding.into())
+    }
+}
+
 /// The registry that the shipped binary uses.
 pub fn standard_kinds() -> Kinds {
     Kinds::standard().with(motorcycle::KINDS)
@@ -115,6 +122,10 @@ fn run(kinds: Kinds, arguments: Vec<OsString>, console: Console) -> (Console, u8
         Err(Failure::Findings(findings)) if findings.is_empty() => 2,
         Err(Failure::Findings(findings)) => {
             console.complain(&report::findings(&findings, console.error_palette()));
+            2
+        }
+        Err(Failure::Trim(error)) => {
+            console.complain(&report::findings(&report::trim(&error).into(), console.error_palette()));
             2
         }
         Err(failure) => {

@@ -136,7 +136,7 @@ impl Case {
         let blank_free = |l: &str| l.split_whitespace().collect::<Vec<_>>().join(" ");
         let shown: Vec<String> = answer.stdout.lines().map(blank_free).collect();
         for line in self.blocks.iter().filter(|b| b.has("shows")).flat_map(|b| b.text.lines()).map(blank_free) {
-            if !shown.contains(&line) {
+            if !shown.iter().any(|shown| fits(shown, &line)) {
                 return Err(format!("standard output does not hold `{line}`\n{}", answer.stdout));
             }
         }
@@ -152,6 +152,20 @@ impl Case {
         let new = format!("```text exit={}\n{text}```", answer.status);
         fs::write(&self.path, self.source.replace(&old, &new)).expect("the case can be written");
     }
+}
+
+/// Whether a line is the expected one, in which `…` stands for anything.
+fn fits(line: &str, expected: &str) -> bool {
+    let mut rest = line;
+    let parts: Vec<&str> = expected.split('…').collect();
+    for (k, part) in parts.iter().enumerate() {
+        match rest.find(part) {
+            Some(0) => rest = &rest[part.len()..],
+            Some(at) if k > 0 => rest = &rest[at + part.len()..],
+            _ => return false,
+        }
+    }
+    rest.is_empty() || expected.ends_with('…')
 }
 
 /// Without blanks at the ends of lines and empty lines at the end.

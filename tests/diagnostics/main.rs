@@ -8,14 +8,12 @@
 //! | `diff file=NAME` | the bundled file of that name with changed lines (`-` old, `+` new, blank: as it is), and the files beside it |
 //! | `sh` | the command |
 //! | `text exit=N` | standard error, to the letter, and the exit status |
-//! | `text shows` | lines that standard output must hold, blanks aside |
+//! | `text shows` | lines that standard output must hold, blanks aside; `…` stands for anything |
 //!
 //! The tree `broken/plant.urdf` stands beside the files of every case.
 //! After a deliberate change of words: `DIAGNOSTICS_UPDATE=1 cargo test -p validation --test diagnostics`, then read the difference.
 
 mod case;
-
-
 
 use case::Case;
 use std::fs;
