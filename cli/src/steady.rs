@@ -1,5 +1,6 @@
 //! Runs steady states over a grid of prescribed values, in parallel, and keeps every point with its cause.
 
+use crate::arguments::unknown_name;
 use crate::backend::AlgebraicBackend;
 use crate::output::{Given, Point, Progress};
 use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
@@ -50,8 +51,8 @@ fn values(p: &TrimPoint) -> Vec<f64> {
 /// The request as a whole is impossible; a point that cannot be reached is no error.
 pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &str) -> Result<Steady, Failure> {
     let Some(backend) = backend::algebraic(backend_name) else {
-        let known: Vec<&str> = backend::ALGEBRAIC.iter().map(|b| b.name).collect();
-        return Err(Failure::Argument(format!("--backend {backend_name}: expected one of {}", known.join(", "))));
+        let known = backend::ALGEBRAIC.iter().map(|b| b.name);
+        return Err(unknown_name("backend", backend_name, ("backend", backend_name), known).into());
     };
     let plant = TreePlant::new(system.clone());
     let prescribed: Vec<&Prescribed> =

@@ -61,12 +61,3 @@ pub fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
 fn read<A: clap::FromArgMatches>(matches: &ArgMatches) -> Result<A, Failure> {
     A::from_arg_matches(matches).map_err(|e| Failure::Argument(e.to_string()))
 }
-
-/// Writes to standard output; a reader that has gone (`| head`) is no failure.
-fn print(text: &[u8]) -> Result<(), Failure> {
-    use std::io::{ErrorKind, Write};
-    match std::io::stdout().lock().write_all(text) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Write { path: "standard output".to_owned(), cause: e.to_string() }),
-        _ => Ok(()),
-    }
-}

@@ -1,13 +1,14 @@
 //! `trim`: steady state by inverse dynamics.
 
-use super::{Kind, print, read};
-use crate::arguments::{ModelArguments, OutputArguments};
+use super::{Kind, read};
+use crate::arguments::{ModelArguments, OutputArguments, unknown_name};
 use crate::output::{self, Options, Report, Variant};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure, keep, model};
 use clap::{ArgMatches, Args, Command};
+use mbody::description::finding::Finding;
 use problem::{Ending, Signal};
 
 /// Row of the table of commands.
@@ -41,6 +42,11 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let mut arguments: Arguments = read(matches)?;
     gear(&mut arguments);
     let request = arguments.trim.request()?;
+    arguments.output.check()?;
+    if arguments.output.plot.is_some() && request.swept() == 0 {
+        let finding = Finding::error("no_sweep", "the figure of a single point would be empty");
+        return Err(finding.with_hint("sweep something, for example `--speed 10..60:2`").into());
+    }
     let loaded = model::load(&arguments.model, context)?;
     let mut steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "trim")?;
     steady
@@ -55,12 +61,11 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let options = Options { palette: context.palette, angles: arguments.output.angles() };
     let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
     written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
+    // what was computed is told before anything else can fail
+    context.console.print(&text)?;
+    context.console.warn(&report.warnings);
     let figure = arguments.output.plot.is_some().then(|| figure(&report)).transpose()?;
-    keep::results(&arguments.output, &report, figure.as_ref(), &arguments.model)?;
-    print(&text)?;
-    for warning in &report.warnings {
-        eprintln!("warning: {warning}");
-    }
+    keep::results(context, &arguments.output, &report, figure.as_ref(), &arguments.model)?;
     Ok(exit(&report))
 }
 
@@ -149,8 +154,7 @@ pub fn report(command: &'static str, model: &str, show: &[String], mut steady: S
             Some(i) => shown.push(i),
             None => {
                 let names = steady.signals.iter().map(|s| s.name.as_str());
-                let hint = mbody::description::finding::suggestion(name, names).map(|h| format!(" ({h})")).unwrap_or_default();
-                return Err(Failure::Argument(format!("--show {name}: no such signal{hint}")));
+                return Err(unknown_name("show", name, ("signal", name), names).into());
             }
         }
     }
@@ -165,7 +169,7 @@ fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
     let varies = |k: usize| report.points.windows(2).any(|w| w[0].given[k] != w[1].given[k]);
     let swept: Vec<usize> = (0..given.len()).filter(|&k| varies(k)).collect();
     let Some(&x) = swept.first() else {
-        return Err(Failure::Argument("--plot needs a sweep, for example --speed 10..60:2".to_owned()));
+        return Err(Finding::error("no_sweep", "all points of the sweep are the same").into());
     };
     let defaults = ["steer.torque", "steer.angle", "chassis.roll", "front_tire.normal_force", "rear_tire.normal_force"];
     let shown: Vec<usize> = match report.shown.is_empty() {
