@@ -1,0 +1,3 @@
+//! Are they the right equations? Published cases, one file each.
+
+#![allow(non_snake_case)]
