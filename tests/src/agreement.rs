@@ -124,7 +124,7 @@ impl Agreement {
         let Self { claim, comparisons, worst, misses } = self;
         assert!(comparisons > 0, "{claim}: nothing was compared");
         if let Some((used, told)) = worst.filter(|_| misses.is_empty()) {
-            println!("{claim}: {comparisons} comparisons, worst {:.2} % of its tolerance, {told}", 100.0 * used);
+            println!("{claim}: {comparisons} comparisons, worst at {used:.1e} of its tolerance, {told}");
         }
         let shown = misses.iter().take(20).map(String::as_str).collect::<Vec<_>>().join("\n  ");
         assert!(misses.is_empty(), "{claim}: {} of {comparisons} comparisons missed\n  {shown}", misses.len());

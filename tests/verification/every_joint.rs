@@ -1,5 +1,6 @@
 //! Every kind of joint: what is written by hand for speed equals what follows from the pose.
 
+use super::motion::Numbers;
 use mbody::joint::{Joint, KINDS};
 use mbody::scalar::{Lanes, Real};
 use mbody::spatial::{Pose, Rotation, Twist, Vec3, Wrench};
@@ -28,25 +29,14 @@ pub const EVIDENCE: &[Row] = validation::evidence![
 const ROUNDING: Tolerance = relative(1e-13).because("double precision, a few dozen operations");
 const SHORT: Tolerance = relative(1e-14).because("double precision, a few operations");
 
-/// Numbers without a pattern: a linear congruential generator (constants of D. Knuth's MMIX), the upper bits of its state.
-struct Numbers(u64);
+fn vector(numbers: &mut Numbers) -> Vec3<f64> {
+    Vec3::new(numbers.next(), numbers.next(), numbers.next())
+}
 
-impl Numbers {
-    /// The next number from −1 to 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3<f64> {
-        Vec3::new(self.next(), self.next(), self.next())
-    }
-
-    fn axis(&mut self) -> Vec3<f64> {
-        loop {
-            if let Some(axis) = self.vector().normalized() {
-                return axis;
-            }
+fn axis(numbers: &mut Numbers) -> Vec3<f64> {
+    loop {
+        if let Some(axis) = vector(numbers).normalized() {
+            return axis;
         }
     }
 }
@@ -69,7 +59,7 @@ fn cases() -> Vec<Case> {
                 0 => Vec3::new(1.0, 0.0, 0.0),
                 1 => Vec3::new(0.0, 1.0, 0.0),
                 2 => Vec3::new(0.0, 0.0, 1.0),
-                _ => numbers.axis(),
+                _ => axis(&mut numbers),
             };
             let joint = (kind.make)(axis, 0.3 * numbers.next());
             let mut q: Vec<f64> = joint.reference().iter().map(|_| numbers.next()).collect();
@@ -162,7 +152,7 @@ fn efforts_and_motions_are_the_columns_of_the_subspace() {
         let mut H = vec![Twist::zero(); case.joint.nv()];
         case.joint.place(&Pose::identity(), &case.q, &mut H);
         agreement.all_near(&case.name, &flat(case.joint.motion(&H, &case.v)), &flat(sum(&H, &case.v)), &SHORT);
-        let F = Wrench::new(numbers.vector(), numbers.vector());
+        let F = Wrench::new(vector(&mut numbers), vector(&mut numbers));
         let mut tau = vec![0.0; case.joint.nv()];
         case.joint.effort(&H, F, &mut tau);
         let expected: Vec<f64> = H.iter().map(|h| h.dot(F)).collect();
@@ -180,7 +170,7 @@ fn a_joint_does_not_see_where_it_is_mounted() {
     let mut agreement = Agreement::on("joints: invariance against the inboard frame");
     let mut numbers = Numbers(11);
     for case in cases() {
-        let angles = numbers.vector();
+        let angles = vector(&mut numbers);
         let X_PF = Pose::from_xyz_rpy([numbers.next(), numbers.next(), numbers.next()], [angles.x, angles.y, angles.z]);
         let (mut here, mut there) = (vec![Twist::zero(); case.joint.nv()], vec![Twist::zero(); case.joint.nv()]);
         let X_FM = case.joint.place(&Pose::identity(), &case.q, &mut here);
