@@ -34,7 +34,7 @@ fn version() -> String {
 /// The whole command line.
 pub fn cli() -> Command {
     let root = Command::new("fastbike")
-        .about("Motorcycle handling and stability: steady states, modes, frequency responses, simulations")
+        .about("Motorcycle handling and stability: steady states by inverse dynamics")
         .version(version())
         .subcommand_required(true)
         .arg_required_else_help(true)
