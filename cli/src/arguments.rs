@@ -2,7 +2,9 @@
 
 use crate::Failure;
 use crate::output::{self, Angles, Axes};
+use crate::plot::FileFormat;
 use clap::Args;
+use mbody::description::finding::{Finding, suggestion};
 use mbody::description::quantity::{Dimensioned, parse_quantity};
 use std::path::PathBuf;
 
@@ -37,6 +39,17 @@ pub struct OutputArguments {
 }
 
 impl OutputArguments {
+    /// Whether the figure has a format that is drawn, before anything is computed.
+    pub fn check(&self) -> Result<(), Failure> {
+        match &self.plot {
+            Some(path) if FileFormat::of(path).is_err() => {
+                let finding = argument("plot", &path.display().to_string(), "unknown_value", "there is no figure of this format");
+                Err(finding.with_hint("the name of the file ends in `.svg` or `.png`").into())
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Unit of angles in tables.
     pub fn angles(&self) -> Angles {
         if self.radians { Angles::Radians } else { Angles::Degrees }
@@ -45,11 +58,22 @@ impl OutputArguments {
 
 fn format(text: &str) -> Result<&'static output::Kind, String> {
     let known: Vec<&str> = output::KINDS.iter().map(|k| k.name).collect();
-    output::kind(text).ok_or_else(|| format!("expected one of {}", known.join(", ")))
+    output::kind(text).ok_or_else(|| format!("expected one of `{}`", known.join("`, `")))
 }
 
 fn axes(text: &str) -> Result<Axes, String> {
     Axes::from_name(text).ok_or_else(|| "expected `iso` or `sae`".to_owned())
+}
+
+/// An error about an option of the command line and the text behind it.
+pub fn argument(option: &str, text: &str, code: &'static str, message: impl Into<String>) -> Finding {
+    Finding::error(code, message).in_file(format!("--{option} {text}"))
+}
+
+/// An unknown name behind an option, with the nearest of the known ones.
+pub fn unknown_name<'a>(option: &str, text: &str, (noun, name): (&str, &str), known: impl IntoIterator<Item = &'a str>) -> Finding {
+    let code = if noun == "signal" { "unknown_signal" } else { "unknown_value" };
+    argument(option, text, code, format!("there is no {noun} `{name}`")).with_hint_from(suggestion(name, known))
 }
 
 /// One value or several: `30`, `108km/h`, `10..60:2` (start..end:step), `10,20,30`. Values are SI.
@@ -57,12 +81,10 @@ fn axes(text: &str) -> Result<Axes, String> {
 /// # Errors
 /// Names the part that cannot be read, the unit that does not fit, or a step that leads nowhere.
 pub fn sweep<D: Dimensioned>(option: &str, text: &str) -> Result<Vec<f64>, Failure> {
-    let wrong = |why: String| Failure::Argument(format!("--{option} {text}: {why}"));
+    let wrong = |why: &str| argument(option, text, "bad_range", why);
     let one = |part: &str| {
-        parse_quantity(part.trim(), D::DIMENSION).map_err(|e| {
-            let hint = e.hint().map(|h| format!(" ({h})")).unwrap_or_default();
-            wrong(format!("{e}{hint}"))
-        })
+        let value = parse_quantity(part.trim(), D::DIMENSION);
+        value.map_err(|e| Failure::from(argument(option, text, e.code(), e.to_string()).with_hint_from(e.hint())))
     };
     if text.contains(',') {
         return text.split(',').map(one).collect();
@@ -71,16 +93,16 @@ pub fn sweep<D: Dimensioned>(option: &str, text: &str) -> Result<Vec<f64>, Failu
         return Ok(vec![one(text)?]);
     };
     let Some((end, step)) = rest.split_once(':') else {
-        return Err(wrong("a range is written start..end:step, for example 10..60:2".to_owned()));
+        return Err(wrong("the range has no step").with_hint("a range is written start..end:step, for example 10..60:2").into());
     };
     let (start, end, step) = (one(start)?, one(end)?, one(step)?);
     if step == 0.0 || (end - start) * step < 0.0 {
-        return Err(wrong("the step does not lead from the start to the end".to_owned()));
+        return Err(wrong("the step does not lead from the start to the end").into());
     }
     // the end belongs to the range where a whole number of steps meets it
     let count = ((end - start) / step + 1e-9).floor();
     if count > 1e6 {
-        return Err(wrong(format!("that is {count:.0} points; at most 1000000 are accepted")));
+        return Err(wrong(&format!("that is {count:.0} points; at most 1000000 are accepted")).into());
     }
     Ok((0..=count as usize).map(|i| start + i as f64 * step).collect())
 }

@@ -1,11 +1,11 @@
 //! What a run leaves on disk: figures, and a run folder with inputs, version, statistics and results.
 
-use crate::Failure;
 use crate::arguments::{ModelArguments, OutputArguments};
 use crate::commands::OwnedReport;
 use crate::library::Source;
 use crate::output::{self, Options};
 use crate::plot::{Figure, FileFormat};
+use crate::{Context, Failure};
 use mbody::description::Library;
 use serde_json::json;
 use std::fs;
@@ -16,7 +16,13 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Writes the figure (`--plot`) and the run folder (`--out`).
-pub fn results(output: &OutputArguments, report: &OwnedReport, figure: Option<&Figure>, model: &ModelArguments) -> Result<(), Failure> {
+pub fn results(
+    context: &Context,
+    output: &OutputArguments,
+    report: &OwnedReport,
+    figure: Option<&Figure>,
+    model: &ModelArguments,
+) -> Result<(), Failure> {
     if let (Some(path), Some(figure)) = (&output.plot, figure) {
         write(path, &figure.encode(FileFormat::of(path)?)?)?;
     }
@@ -34,11 +40,11 @@ pub fn results(output: &OutputArguments, report: &OwnedReport, figure: Option<&F
             write(&folder.join(name), &figure.encode(format)?)?;
         }
     }
-    write(&folder.join("run.json"), format!("{:#}\n", inputs(report, model)).as_bytes())
+    write(&folder.join("run.json"), format!("{:#}\n", inputs(context, report, model)).as_bytes())
 }
 
 /// Inputs with hashes, version and statistics.
-fn inputs(report: &OwnedReport, model: &ModelArguments) -> serde_json::Value {
+fn inputs(context: &Context, report: &OwnedReport, model: &ModelArguments) -> serde_json::Value {
     let files = Source::find(&model.model).map(|source| {
         let mut names = vec![source.file.clone()];
         let text = source.text(&source.file).unwrap_or_default().into_owned();
@@ -51,7 +57,7 @@ fn inputs(report: &OwnedReport, model: &ModelArguments) -> serde_json::Value {
     let iterations: usize = report.points.iter().map(|p| p.iterations).sum();
     json!({
         "fastbike": env!("CARGO_PKG_VERSION"),
-        "arguments": std::env::args().skip(1).collect::<Vec<_>>(),
+        "arguments": context.arguments,
         "model": model.model,
         "set": model.set,
         "inputs": files.unwrap_or_default(),

@@ -6,6 +6,7 @@
 pub mod arguments;
 pub mod backend;
 pub mod commands;
+pub mod console;
 pub mod keep;
 pub mod library;
 pub mod model;
@@ -15,8 +16,11 @@ pub mod plot;
 pub mod report;
 pub mod steady;
 
+use console::{Captured, Console};
 use mbody::assembly::Kinds;
+use mbody::description::finding::Finding;
 use output::Palette;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// What every command may use.
@@ -26,6 +30,10 @@ pub struct Context {
     pub kinds: Kinds,
     /// Colors of standard output.
     pub palette: Palette,
+    /// Where everything is written.
+    pub console: Console,
+    /// What was typed after the name of the program.
+    pub arguments: Vec<String>,
 }
 
 /// How a command ended.
@@ -62,6 +70,12 @@ pub enum Failure {
     Plot(#[from] plot::PlotError),
 }
 
+impl From<Finding> for Failure {
+    fn from(finding: Finding) -> Self {
+        Self::Findings(finding.into())
+    }
+}
+
 /// The registry that the shipped binary uses.
 pub fn standard_kinds() -> Kinds {
     Kinds::standard().with(motorcycle::KINDS)
@@ -73,24 +87,65 @@ pub fn main_with(kinds: Kinds) -> ExitCode {
         eprintln!("error: {message}");
         return ExitCode::from(2);
     }
-    let matches = commands::cli().get_matches();
-    let context = Context { kinds, palette: Palette::for_stdout() };
-    match commands::run(&matches, &context) {
-        Ok(Exit::Done) => ExitCode::SUCCESS,
-        Ok(Exit::Unreached) => ExitCode::from(1),
-        Err(Failure::Findings(findings)) => {
-            eprint!("{}", report::findings(&findings, Palette::for_stderr()));
-            ExitCode::from(2)
+    let arguments = std::env::args_os().skip(1).collect();
+    ExitCode::from(run(kinds, arguments, Console::standard()).1)
+}
+
+/// Runs the command line as [`main_with`] does, with arguments from elsewhere, and keeps what it writes.
+///
+/// `arguments` are those after the name of the program. Paths in them are relative to the working folder of the process.
+pub fn run_captured<A: Into<OsString>>(kinds: Kinds, arguments: impl IntoIterator<Item = A>) -> Captured {
+    let arguments = arguments.into_iter().map(Into::into).collect();
+    let (console, status) = run(kinds, arguments, Console::memory());
+    console.captured(status)
+}
+
+/// Reads the arguments and runs the command; the exit status comes with the console.
+fn run(kinds: Kinds, arguments: Vec<OsString>, console: Console) -> (Console, u8) {
+    let typed = arguments.iter().map(|a| a.to_string_lossy().into_owned()).collect();
+    let words = std::iter::once(OsString::from("fastbike")).chain(arguments);
+    let cli = if console.is_memory() { commands::cli().term_width(100) } else { commands::cli() };
+    let matches = match cli.try_get_matches_from(words) {
+        Ok(matches) => matches,
+        Err(answer) => {
+            let status = say(&answer, &console);
+            return (console, status);
         }
-        Err(failure @ Failure::Write { .. }) => {
-            eprintln!("error: {failure}");
-            ExitCode::from(1)
+    };
+    let context = Context { kinds, palette: console.palette(), console, arguments: typed };
+    let ended = commands::run(&matches, &context);
+    let console = context.console;
+    let status = match ended {
+        Ok(Exit::Done) => 0,
+        Ok(Exit::Unreached) => 1,
+        // everything was said on standard output
+        Err(Failure::Findings(findings)) if findings.is_empty() => 2,
+        Err(Failure::Findings(findings)) => {
+            console.complain(&report::findings(&findings, console.error_palette()));
+            2
+        }
+        Err(Failure::Trim(error)) => {
+            console.complain(&report::findings(&report::trim(&error).into(), console.error_palette()));
+            2
         }
         Err(failure) => {
-            eprintln!("error: {failure}");
-            ExitCode::from(2)
+            console.complain(&format!("error: {failure}\n"));
+            if matches!(failure, Failure::Write { .. }) { 1 } else { 2 }
         }
+    };
+    (console, status)
+}
+
+/// Help, version, or what is wrong with the arguments, in the words of `clap`.
+fn say(answer: &clap::Error, console: &Console) -> u8 {
+    let wrong = answer.use_stderr();
+    // a terminal that is gone cannot be told so
+    match console.is_memory() {
+        true if wrong => console.complain(&answer.render().to_string()),
+        true => console.print(answer.render().to_string().as_bytes()).unwrap_or_default(),
+        false => answer.print().unwrap_or_default(),
     }
+    if wrong { 2 } else { 0 }
 }
 
 /// An older processor gets a sentence, not an illegal instruction.

@@ -1,9 +1,10 @@
 //! Where descriptions come from: the bundled models, or the disk.
 
 use mbody::description::Library;
-use mbody::description::finding::{Finding, Findings, suggestion};
+use mbody::description::finding::{Finding, Findings, nearest, suggestion};
 use std::borrow::Cow;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Name below `models/` and text of every bundled file.
@@ -48,9 +49,7 @@ impl Source {
         let path = Path::new(model);
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         if matches!(extension, "yaml" | "yml" | "urdf") {
-            if !path.is_file() {
-                return Err(Finding::error("missing_file", format!("file `{model}` was not found")).into());
-            }
+            readable(path, model)?;
             let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
             let name = path.file_stem().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
             let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_path_buf();
@@ -64,16 +63,43 @@ impl Source {
                 }
             }
         }
+        if path.exists() {
+            return Err(no_description(path, model).into());
+        }
         let known = bundled_models();
-        let hint = suggestion(model, known.iter().copied())
-            .unwrap_or_else(|| format!("bundled models: {}; or give the path of a .yaml or .urdf file", known.join(", ")));
-        Err(Finding::error("unknown_model", format!("there is no bundled model `{model}`")).with_hint(hint).into())
+        let finding = Finding::error("unknown_model", format!("there is no bundled model `{model}`"));
+        Err(finding.with_hint_from(suggestion(model, known.iter().copied())).into())
     }
 
     /// Whether the description is a plain URDF.
     pub fn is_urdf(&self) -> bool {
         self.file.ends_with(".urdf")
     }
+}
+
+/// Whether there is a text at the path.
+fn readable(path: &Path, model: &str) -> Result<(), Finding> {
+    let missing = |message: String| Finding::error("missing_file", message);
+    if path.is_dir() {
+        return Err(no_description(path, model));
+    }
+    fs::read_to_string(path).map(drop).map_err(|e| match e.kind() {
+        ErrorKind::NotFound => {
+            let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
+            let bundled = nearest(stem, bundled_models()).map(|name| format!("there is a bundled model `{name}`, named without ending"));
+            missing(format!("file `{model}` was not found")).with_hint_from(bundled)
+        }
+        ErrorKind::InvalidData => Finding::error("not_text", format!("file `{model}` is no text in UTF-8")),
+        ErrorKind::PermissionDenied => missing(format!("file `{model}` may not be read")),
+        _ => missing(format!("file `{model}` cannot be read: {e}")),
+    })
+}
+
+/// Something is there, but no description.
+fn no_description(path: &Path, model: &str) -> Finding {
+    let what = if path.is_dir() { "a folder" } else { "neither a .yaml nor a .urdf file" };
+    Finding::error("no_description", format!("`{model}` is {what}"))
+        .with_hint("give the path of a .yaml description or of a plain .urdf, or the name of a bundled model")
 }
 
 impl Library for Source {

@@ -1,6 +1,6 @@
 //! From the MODEL argument to an assembled system.
 
-use crate::arguments::ModelArguments;
+use crate::arguments::{ModelArguments, argument};
 use crate::library::Source;
 use crate::{Context, Failure};
 use mbody::assembly::{Assembled, BaseDescription, Override, assemble, assemble_urdf};
@@ -22,7 +22,9 @@ pub struct Loaded {
 pub fn overrides(settings: &[String]) -> Result<Vec<Override>, Failure> {
     let split = |s: &String| match s.split_once('=') {
         Some((path, value)) if !path.is_empty() && !value.is_empty() => Ok((path.trim().to_owned(), value.trim().to_owned())),
-        _ => Err(Failure::Argument(format!("`--set {s}` is not of the form PATH=VALUE"))),
+        _ => Err(argument("set", s, "bad_override", "this is not of the form PATH=VALUE")
+            .with_hint("for example `--set front_tire.radius=0.3m`")
+            .into()),
     };
     settings.iter().map(split).collect()
 }

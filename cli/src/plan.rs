@@ -4,9 +4,10 @@
 //! of the base point, `--lean` the roll, and so on (all of the base point: road level below the rear axle in the design pose).
 
 use crate::Failure;
-use crate::arguments::sweep;
+use crate::arguments::{argument, sweep, unknown_name};
 use analyses::trim::{Role, Trim};
 use clap::Args;
+use mbody::description::finding::Finding;
 use mbody::description::quantity::Dimensioned;
 use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Curvature, Length, Number, Speed, Torque};
 use mbody::dynamics::System;
@@ -134,34 +135,42 @@ impl TrimArguments {
         if let Some(s) = &speed
             && let Some(slow) = s.values.iter().find(|&&v| v <= 0.0)
         {
-            return Err(Failure::Argument(format!(
-                "--speed {slow}: a steady state needs a speed above zero; leave it out for the static pose"
-            )));
+            let text = self.speed.as_deref().unwrap_or_default();
+            let finding = argument("speed", text, "out_of_range", format!("`{slow} m/s` is out of range: it must be greater than 0 m/s"));
+            return Err(finding.with_hint("leave `--speed` out for the static pose").into());
         }
         if speed.is_none() && !self.top_speed && (turn.is_some() || self.acceleration.is_some()) {
-            return Err(Failure::Argument("a turn or an acceleration needs --speed as well".to_owned()));
+            let finding = Finding::error("missing_speed", "a turn or an acceleration needs a speed");
+            return Err(finding.with_hint("add `--speed`, for example `--speed 30`").into());
         }
         if let Some((Turn::Radius, p)) = &turn
             && p.values.contains(&0.0)
         {
-            return Err(Failure::Argument("--radius 0: a radius must not be zero; straight running is --curvature 0".to_owned()));
+            let text = self.radius.as_deref().unwrap_or_default();
+            let finding = argument("radius", text, "out_of_range", "a radius of `0 m` is out of range");
+            return Err(finding.with_hint("straight running is `--curvature 0`").into());
         }
         let share = sweep::<Number>("front-brake-share", &self.front_brake_share)?;
+        let of_share = |code, why: String| argument("front-brake-share", &self.front_brake_share, code, why);
         let [front_brake_share] = share[..] else {
-            return Err(Failure::Argument("--front-brake-share takes one value".to_owned()));
+            return Err(of_share("wrong_count", "this takes one value".to_owned()).into());
         };
         if !(0.0..=1.0).contains(&front_brake_share) {
-            return Err(Failure::Argument(format!("--front-brake-share {front_brake_share}: expected a share from 0 to 1")));
+            let why = format!("`{front_brake_share}` is out of range: it must be from 0 to 1");
+            return Err(of_share("out_of_range", why).into());
         }
         let split = |s: &String| match s.split_once('=') {
             Some((name, value)) => Ok((name.trim().to_owned(), value.trim().to_owned())),
-            None => Err(Failure::Argument(format!("--given {s}: expected SIGNAL=VALUE"))),
+            None => {
+                let finding = argument("given", s, "bad_argument", "this is not of the form SIGNAL=VALUE");
+                Err(Failure::from(finding.with_hint("to leave a signal open, write `--free SIGNAL`")))
+            }
         };
         let free = |s: &String| match s.split_once('=') {
             None => Ok((s.trim().to_owned(), None)),
             Some((name, guess)) => match guess.trim().parse() {
                 Ok(guess) => Ok((name.trim().to_owned(), Some(guess))),
-                Err(_) => Err(Failure::Argument(format!("--free {s}: the guess `{guess}` is not a number"))),
+                Err(_) => Err(Failure::from(argument("free", s, "bad_number", format!("the guess `{guess}` is not a number")))),
             },
         };
         Ok(Request {
@@ -227,6 +236,12 @@ fn free_if_there(trim: &mut Trim, name: &str, guess: f64) -> Result<(), Failure>
 }
 
 impl Request {
+    /// How many quantities take several values.
+    pub fn swept(&self) -> usize {
+        let prescribed = self.speed.iter().chain(self.turn.as_ref().map(|t| &t.1)).chain(self.acceleration.as_ref());
+        prescribed.filter(|p| p.values.len() > 1).count()
+    }
+
     /// The static pose: everything at rest, upright, no lateral deflection.
     pub fn at_rest(&self, plant: &dyn Plant) -> Result<Plan, Failure> {
         let mut trim = Trim::at_rest(plant);
@@ -249,7 +264,8 @@ impl Request {
     /// Goals in this order: forward speed (unless top speed is wanted), turn, acceleration.
     pub fn moving(&self, plant: &dyn Plant, system: &System, drive: Drive, speed: f64) -> Result<Plan, Failure> {
         let Some(base) = base_name(plant) else {
-            return Err(Failure::Argument("this model has no vehicle base; only its static pose (no --speed) can be found".to_owned()));
+            let finding = Finding::error("no_vehicle_base", "this model has no vehicle base, so it has no speed along a road");
+            return Err(finding.with_hint("without `--speed` its static pose is found; a vehicle has `base: vehicle_base`").into());
         };
         let mut trim = Trim::steady(plant);
         let (v, r) = (format!("{base}.forward_speed"), format!("{base}.yaw_rate"));
@@ -307,9 +323,8 @@ impl Request {
             false => ("rear_brake.torque", "front_brake.torque", p / (1.0 - p)),
         };
         if trim.role(lead).is_none() || trim.role(other).is_none() {
-            return Err(Failure::Argument(
-                "this model has no inputs `front_brake.torque` and `rear_brake.torque` to brake with".to_owned(),
-            ));
+            let message = "this model has no inputs `front_brake.torque` and `rear_brake.torque` to brake with";
+            return Err(Finding::error("missing_input", message).into());
         }
         trim.free(lead, 0.0)?;
         Ok(trim.tie(other, &format!("{ratio} * {lead}"))?)
@@ -317,7 +332,12 @@ impl Request {
 
     /// `--given` and `--free`.
     fn wishes(&self, trim: &mut Trim) -> Result<(), Failure> {
+        let known = |trim: &Trim, option: &str, name: &String| match trim.variables().find(name) {
+            Some(_) => Ok(()),
+            None => Err(Failure::from(unknown_name(option, name, ("signal", name), trim.variables().names()))),
+        };
         for (name, formula) in &self.given {
+            known(trim, "given", name)?;
             match formula.parse::<f64>() {
                 Ok(value) => {
                     trim.give(name, value)?;
@@ -326,6 +346,7 @@ impl Request {
             }
         }
         for (name, guess) in &self.free {
+            known(trim, "free", name)?;
             let guess = guess.or_else(|| match trim.role(name) {
                 Some(Role::Fixed(x) | Role::Unknown(x)) => Some(*x),
                 _ => None,

@@ -1,7 +1,8 @@
 //! Findings as text, in color where that helps.
 
 use crate::output::Palette;
-use mbody::description::finding::{Findings, Part, Severity};
+use analyses::trim::TrimError;
+use mbody::description::finding::{Finding, Findings, Part, Severity};
 use std::fmt::Write;
 
 /// All findings, errors first where they stand first in the files; notes only where there is nothing worse.
@@ -24,4 +25,26 @@ pub fn findings(findings: &Findings, palette: Palette) -> String {
     text.push_str(&findings.summary());
     text.push('\n');
     text
+}
+
+/// Why a trim has no unique answer, as a finding with advice.
+pub fn trim(error: &TrimError) -> Finding {
+    let (code, hint) = match error {
+        TrimError::UnknownSignal { .. } | TrimError::Expression(_) => ("unknown_signal", Some("`fastbike info MODEL` lists the signals")),
+        TrimError::OutputRole { .. } => ("wrong_role", Some("`--given SIGNAL=VALUE` makes it a condition")),
+        TrimError::Tie { .. } => ("wrong_role", None),
+        TrimError::Count { unknowns, equations, .. } if unknowns < equations => {
+            ("contradictory", Some("leave something open with `--free SIGNAL`"))
+        }
+        TrimError::Count { .. } | TrimError::Undetermined { .. } => {
+            ("undetermined", Some("give one of them with `--given SIGNAL=VALUE`, or leave less open"))
+        }
+        TrimError::Contradictory { .. } | TrimError::Conflict { .. } => {
+            ("contradictory", Some("leave something open with `--free SIGNAL`, or give less"))
+        }
+        TrimError::NotFinite { .. } => ("not_finite", None),
+    };
+    let text = error.to_string();
+    let message = text.strip_prefix(code).and_then(|t| t.strip_prefix(": ")).unwrap_or(&text);
+    Finding::error(code, message).with_hint_from(hint.map(str::to_owned))
 }

@@ -1,5 +1,6 @@
 //! Runs steady states over a grid of prescribed values, in parallel, and keeps every point with its cause.
 
+use crate::arguments::unknown_name;
 use crate::backend::AlgebraicBackend;
 use crate::output::{Given, Point, Progress};
 use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
@@ -50,8 +51,8 @@ fn values(p: &TrimPoint) -> Vec<f64> {
 /// The request as a whole is impossible; a point that cannot be reached is no error.
 pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &str) -> Result<Steady, Failure> {
     let Some(backend) = backend::algebraic(backend_name) else {
-        let known: Vec<&str> = backend::ALGEBRAIC.iter().map(|b| b.name).collect();
-        return Err(Failure::Argument(format!("--backend {backend_name}: expected one of {}", known.join(", "))));
+        let known = backend::ALGEBRAIC.iter().map(|b| b.name);
+        return Err(unknown_name("backend", backend_name, ("backend", backend_name), known).into());
     };
     let plant = TreePlant::new(system.clone());
     let prescribed: Vec<&Prescribed> =
@@ -60,19 +61,9 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
     let goals = grid(request);
     let job = Job { request, system, backend, rest: rest_pose(system, backend) };
     let progress = Progress::new(what, goals.len());
-    // a line is what one task walks along; lines are independent
-    let line = request.turn.as_ref().map_or(1, |t| t.1.values.len()) * request.acceleration.as_ref().map_or(1, |a| a.values.len());
-    let lines: Vec<Result<Vec<Point>, Failure>> = goals
-        .par_chunks(line.max(1))
-        .map(|line| {
-            let mut points = Vec::new();
-            for goal in line {
-                points.extend(job.point(*goal)?);
-                progress.advance();
-            }
-            Ok(points)
-        })
-        .collect();
+    // a line is what one task walks along: all turns and accelerations at one speed; lines are independent
+    let line = goals.len() / request.speed.as_ref().map_or(1, |p| p.values.len()).max(1);
+    let lines: Vec<Result<Vec<Point>, Failure>> = goals.par_chunks(line.max(1)).map(|line| job.line(line, &progress)).collect();
     let mut points = Vec::new();
     for line in lines {
         points.extend(line?);
@@ -123,6 +114,83 @@ fn rest_pose(system: &Arc<System>, backend: &AlgebraicBackend) -> Vec<f64> {
 }
 
 impl Job<'_> {
+    /// The points at one speed. Turns without acceleration are walked from one to the next; the rest goes point by point.
+    fn line(&self, goals: &[Goal], progress: &Progress) -> Result<Vec<Point>, Failure> {
+        let mut points = Vec::new();
+        let chained = match (goals, self.request.turn.as_ref().map(|t| t.0)) {
+            ([first, _, ..], Some(turn)) if turn != Turn::SteerTorque && first.acceleration.is_none() => self.chain(goals)?,
+            _ => None,
+        };
+        match chained {
+            Some(chained) => {
+                points = chained;
+                goals.iter().for_each(|_| progress.advance());
+            }
+            None => {
+                for goal in goals {
+                    points.extend(self.point(*goal)?);
+                    progress.advance();
+                }
+            }
+        }
+        Ok(points)
+    }
+
+    /// Walks from straight running through turns of growing size, to either side. Where a path ends, every turn beyond it has
+    /// the same cause. `None` where straight running at this speed cannot be found directly.
+    fn chain(&self, goals: &[Goal]) -> Result<Option<Vec<Point>>, Failure> {
+        let Some(speed) = goals.first().and_then(|g| g.speed) else { return Ok(None) };
+        let mut plant = TreePlant::new(self.system.clone());
+        let mut plan = self.request.moving(&plant, self.system, Drive::Engine, speed)?;
+        plan.start_from(&plant, &self.rest);
+        let mut problem = TrimProblem::new(&mut plant, &plan.trim)?;
+        let mut method = (self.backend.make)();
+        let walk = Walk { largest_steps: plan.largest_steps.clone(), ..Walk::default() };
+        let mut straight: Vec<f64> = problem.goals().into_iter().map(|(_, v)| v).collect();
+        straight[..2].copy_from_slice(&[speed, 0.0]);
+        let mut x = problem.guess().to_vec();
+        if !walk.solve(&mut problem, method.as_mut(), &straight, &mut x).converged() {
+            return Ok(None);
+        }
+        let anchor = (straight, x);
+        let mut last = [anchor.clone(), anchor.clone()];
+        let mut ended: [Option<(f64, Ending)>; 2] = [None, None];
+        let mut points = Vec::new();
+        for goal in goals {
+            let turn = self.turn(*goal);
+            let side = usize::from(turn < 0.0);
+            let given = vec![speed, goal.turn.unwrap_or_default()];
+            if let Some((_, ending)) = ended[side].as_ref().filter(|(end, _)| turn.abs() >= end.abs()) {
+                points.push(Point { given, ending: ending.clone(), iterations: 0, residual: f64::NAN, values: Vec::new() });
+                continue;
+            }
+            let from = if last[side].0[1].abs() <= turn.abs() { &last[side] } else { &anchor };
+            let mut target = anchor.0.clone();
+            target[1] = turn;
+            let found = walk.reach(&mut problem, method.as_mut(), (&from.0, &from.1), &target)?;
+            match found.solved {
+                true => last[side] = (target, found.x.clone()),
+                false => ended[side] = Some((turn, found.ending.clone())),
+            }
+            points.push(Point {
+                given,
+                values: values(&found),
+                ending: found.ending,
+                iterations: found.iterations,
+                residual: found.residual,
+            });
+        }
+        Ok(Some(points))
+    }
+
+    /// The turn in the terms of the trim: a radius is an inverse curvature.
+    fn turn(&self, goal: Goal) -> f64 {
+        match (self.request.turn.as_ref().map(|t| t.0), goal.turn) {
+            (Some(Turn::Radius), Some(radius)) => 1.0 / radius,
+            (_, turn) => turn.unwrap_or(0.0),
+        }
+    }
+
     /// The steady states at one grid point: one, or for a given steering torque as many as there are.
     fn point(&self, goal: Goal) -> Result<Vec<Point>, Failure> {
         let request = self.request;
@@ -156,10 +224,7 @@ impl Job<'_> {
     /// Walks from straight running at the same speed to the goal.
     fn moving(&self, speed: f64, goal: Goal) -> Result<TrimPoint, Failure> {
         let (request, system) = (self.request, self.system);
-        let turn = match (request.turn.as_ref().map(|t| t.0), goal.turn) {
-            (Some(Turn::Radius), Some(radius)) => 1.0 / radius,
-            (_, turn) => turn.unwrap_or(0.0),
-        };
+        let turn = self.turn(goal);
         let mut goals = if request.top_speed { vec![1.0, turn] } else { vec![speed, turn] };
         goals.extend(goal.acceleration);
         let with = |drive| -> Result<TrimPoint, Failure> {

@@ -279,7 +279,8 @@ fn left_is_right_mirrored() {
         let mut rig = bench(carcass, |_| ());
         for i in 1..10 {
             general_motion(&mut rig, i);
-            (rig.set("carrier.y", 0.0), rig.set("carrier.yaw", 0.0));
+            rig.set("carrier.y", 0.0);
+            rig.set("carrier.yaw", 0.0);
             let (_, z) = rig.evaluate();
             let odd = |name: &str, list: &[&str]| list.iter().any(|o| name.ends_with(&format!(".{o}")));
             for k in 0..rig.y.len() {
@@ -364,7 +365,9 @@ fn the_dissipation_has_its_parts() {
     let mut rig = bench(deformable(None), |t| t.contact = RoadContact::Bonded);
     for i in 1..20 {
         general_motion(&mut rig, i);
-        (rig.set("carrier.yaw", 0.0), rig.set("carrier.x", 0.0), rig.set("carrier.y", 0.0));
+        for name in ["carrier.yaw", "carrier.x", "carrier.y"] {
+            rig.set(name, 0.0);
+        }
         solve_rates(&mut rig);
         follow(&mut rig);
         let outputs: Vec<String> = rig.plant.outputs().iter().map(|o| o.name.clone()).collect();
@@ -526,6 +529,30 @@ fn relaxation_lengths_have_their_forms() {
         let load = rig.output("tire.normal_force");
         let length = build_up_length(&history, speed, 14.0 * load * 1e-3);
         assert!((length / expected(load)[k] - 1.0).abs() < 1e-4, "{length} is not {}", expected(load)[k]);
+    }
+}
+
+/// The steady deflection of the published linear model of a sport-tourer, `λ = N (ka a + (1 − kg) γ)/kl`: the lateral spring carries
+/// the part of the load that leans on it, less the camber thrust (R. Lot, M. Massaro; data of the rear tire).
+#[test]
+fn in_a_lean_the_lateral_spring_carries_what_camber_thrust_leaves() {
+    let parameters = LinearNormalizedParameters {
+        longitudinal_stiffness: 20.0,
+        cornering_stiffness: 14.5,
+        camber_stiffness: 0.95,
+        aligning_stiffness: 0.20,
+        twisting_stiffness: 0.018,
+    };
+    let law = AnyTireLaw::new(parameters.law().expect("a law"));
+    let lateral = Elastic { stiffness: 140e3, damping: 100.0 };
+    let carcass = Carcass::Deformable(Deformable { radial: RADIAL, lateral, longitudinal: None });
+    let mut rig = bench(carcass, |t| t.law = law.clone());
+    for (slip, roll) in [(1e-3, 0.0), (0.0, 1e-3), (2e-4, -1e-3)] {
+        step_slip(&mut rig, 20.0, slip, roll, 0.2);
+        let load = rig.output("tire.normal_force");
+        let expected = load * (14.5 * slip + (1.0 - 0.95) * roll) / 140e3;
+        // the rounding of slips at 20 m/s gives 1.2e-5, squares of the angles less
+        assert!((rig.get("tire.carcass_lateral") / expected - 1.0).abs() < 2e-5, "{expected}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! `check`: reads and assembles a model and says everything that is wrong or suspicious at once.
 
-use super::{Kind, print, read};
+use super::{Kind, read};
 use crate::arguments::ModelArguments;
 use crate::{Context, Exit, Failure, model, report};
 use clap::{ArgMatches, Args, Command};
@@ -33,16 +33,16 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         Err(other) => return Err(other),
     };
     if arguments.format == "json" {
-        print(format!("{:#}\n", as_json(&arguments.model.model, &findings)).as_bytes())?;
+        context.console.print(format!("{:#}\n", as_json(&arguments.model.model, &findings)).as_bytes())?;
         return if findings.has_errors() { Err(Failure::Findings(Findings::new())) } else { Ok(Exit::Done) };
     }
     match assembled {
         None => Err(Failure::Findings(findings)),
         Some(assembled) => {
             if !findings.is_empty() {
-                print(report::findings(&findings, context.palette).as_bytes())?;
+                context.console.print(report::findings(&findings, context.palette).as_bytes())?;
             }
-            print(summary(&assembled).as_bytes())?;
+            context.console.print(summary(&assembled).as_bytes())?;
             Ok(Exit::Done)
         }
     }

@@ -1,16 +1,18 @@
 //! `dynamics`: inverse and forward dynamics, mass matrix, energies and poses at given states, for any mechanism.
 
-use super::{Kind, print, read};
-use crate::arguments::ModelArguments;
+use super::{Kind, read};
+use crate::arguments::{ModelArguments, argument};
 use crate::{Context, Exit, Failure, model};
 use clap::{ArgMatches, Args, Command};
 use mbody::algorithm::{aba::aba, crba::crba, energy, kinematics, rnea::rnea};
 use mbody::assembly::BaseDescription;
+use mbody::description::finding::{Finding, suggestion};
 use mbody::description::quantity::{Dimensioned, dimension::Acceleration, parse_quantity};
 use mbody::model::Model;
 use mbody::stage::Workspace;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
+use std::io::ErrorKind;
 use std::path::PathBuf;
 
 /// Row of the table of commands.
@@ -54,23 +56,34 @@ fn command(command: Command) -> Command {
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
-    let gravity = parse_quantity(&arguments.gravity, Acceleration::DIMENSION).map_err(|e| Failure::Argument(format!("--gravity: {e}")))?;
+    let gravity = parse_quantity(&arguments.gravity, Acceleration::DIMENSION)
+        .map_err(|e| Failure::from(argument("gravity", &arguments.gravity, e.code(), e.to_string()).with_hint_from(e.hint())))?;
     let base = if arguments.floating { BaseDescription::Free } else { BaseDescription::Fixed };
     let loaded = model::load_on(&arguments.model, context, base, gravity)?;
     let file = arguments.state.display().to_string();
-    let text = std::fs::read_to_string(&arguments.state).map_err(|e| Failure::Argument(format!("--state {file}: {e}")))?;
-    let states: States = serde_json::from_str(&text).map_err(|e| Failure::Argument(format!("--state {file}: {e}")))?;
+    let text = std::fs::read_to_string(&arguments.state).map_err(|e| {
+        let message = match e.kind() {
+            ErrorKind::NotFound => format!("file `{file}` was not found"),
+            _ => format!("file `{file}` cannot be read: {e}"),
+        };
+        Failure::from(argument("state", &file, "missing_file", message))
+    })?;
+    let wrong = |why: String| Finding::error("bad_state", why).in_file(&file);
+    let states: States = serde_json::from_str(&text).map_err(|e| {
+        let (whole, at) = (e.to_string(), format!(" at line {} column {}", e.line(), e.column()));
+        Failure::from(wrong(whole.replace(&at, "")).at_line(&text, e.line(), e.column()))
+    })?;
     let tree = loaded.assembled.system.model();
-    let order = Order::new(tree, states.order.as_deref(), &file)?;
+    let order = Order::new(tree, states.order.as_deref()).map_err(|finding| Failure::from(finding.in_file(&file).at_path("order")))?;
     let mut results = Vec::new();
     for (k, state) in states.states.iter().enumerate() {
-        results.push(evaluate(tree, &order, state).map_err(|why| Failure::Argument(format!("--state {file}: state {k}: {why}")))?);
+        results.push(evaluate(tree, &order, state).map_err(|why| Failure::from(wrong(why).at_path(format!("states.{k}"))))?);
     }
     let report = json!({
         "fastbike": env!("CARGO_PKG_VERSION"), "command": "dynamics", "model": loaded.name,
         "order": order.names, "states": results, "warnings": [],
     });
-    print(format!("{report:#}\n").as_bytes())?;
+    context.console.print(format!("{report:#}\n").as_bytes())?;
     Ok(Exit::Done)
 }
 
@@ -85,7 +98,7 @@ struct Order {
 }
 
 impl Order {
-    fn new(tree: &Model, wanted: Option<&[String]>, file: &str) -> Result<Self, Failure> {
+    fn new(tree: &Model, wanted: Option<&[String]>) -> Result<Self, Finding> {
         let layout = tree.layout();
         let free = |range: &std::ops::Range<usize>, independent: &[usize]| -> Vec<usize> {
             range.clone().filter_map(|k| independent.iter().position(|&i| i == k)).collect()
@@ -100,14 +113,19 @@ impl Order {
                 match bodies.iter().position(|b| b.joint_name == *name) {
                     Some(at) => sorted.push(bodies.remove(at)),
                     None => {
-                        return Err(Failure::Argument(format!(
-                            "--state {file}: order names `{name}`, which is no moving joint or stands twice"
-                        )));
+                        let known = tree.moving().map(|b| tree.body(b).joint_name.as_str());
+                        let twice = order.names.contains(name) || sorted.iter().any(|b| b.joint_name == *name);
+                        let message = match twice {
+                            true => format!("joint `{name}` stands twice in the order"),
+                            false => format!("there is no moving joint `{name}`"),
+                        };
+                        let hint = suggestion(name, known).filter(|_| !twice);
+                        return Err(Finding::error("bad_order", message).with_hint_from(hint));
                     }
                 }
             }
             if let Some(missing) = bodies.first() {
-                return Err(Failure::Argument(format!("--state {file}: order leaves out joint `{}`", missing.joint_name)));
+                return Err(Finding::error("bad_order", format!("joint `{}` is missing in the order", missing.joint_name)));
             }
             bodies = sorted;
         }

@@ -1,6 +1,6 @@
 //! `info`: what a model consists of; without a model, the bundled ones; with `--kinds`, every kind of element.
 
-use super::{Kind, print, read};
+use super::{Kind, read};
 use crate::arguments::ModelArguments;
 use crate::library::{Source, bundled_models};
 use crate::{Context, Exit, Failure, model};
@@ -44,7 +44,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
             about(&model::load_on(&model, context, base, 9.81)?.assembled)
         }
     };
-    print(text.as_bytes())?;
+    context.console.print(text.as_bytes())?;
     Ok(Exit::Done)
 }
 

@@ -1,13 +1,14 @@
 //! `map`: steady states over a grid of two prescribed quantities, as a contour figure.
 
 use super::trim::{OwnedReport, angle_unit, exit, report};
-use super::{Kind, print, read};
-use crate::arguments::{ModelArguments, OutputArguments};
+use super::{Kind, read};
+use crate::arguments::{ModelArguments, OutputArguments, argument};
 use crate::output::Options;
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Contour, Figure, Node};
 use crate::{Context, Exit, Failure, keep, model, steady};
 use clap::{ArgMatches, Args, Command};
+use mbody::description::finding::Finding;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "map", command, run };
@@ -34,20 +35,29 @@ fn command(command: Command) -> Command {
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
     let request = arguments.trim.request()?;
+    arguments.output.check()?;
+    if request.swept() != 2 {
+        return Err(not_two(request.swept()).into());
+    }
     let loaded = model::load(&arguments.model, context)?;
     let steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "map")?;
     let report = report("map", &loaded.name, std::slice::from_ref(&arguments.show), steady)?.in_axes(arguments.output.axes);
-    let figure = arguments.output.plot.is_some().then(|| figure(&report, &arguments.show)).transpose()?;
-    keep::results(&arguments.output, &report, figure.as_ref(), &arguments.model)?;
     let mut text = Vec::new();
     let options = Options { palette: context.palette, angles: arguments.output.angles() };
     let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
     written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
-    print(&text)?;
-    for warning in &report.warnings {
-        eprintln!("warning: {warning}");
-    }
+    // what was computed is told before anything else can fail
+    context.console.print(&text)?;
+    context.console.warn(&report.warnings);
+    let figure = arguments.output.plot.is_some().then(|| figure(&report, &arguments.show)).transpose()?;
+    keep::results(context, &arguments.output, &report, figure.as_ref(), &arguments.model)?;
     Ok(exit(&report))
+}
+
+/// A map of fewer or more than two swept options.
+fn not_two(swept: usize) -> Finding {
+    Finding::error("no_sweep", format!("a map needs two swept options, found {swept}"))
+        .with_hint("for example `--speed 10..60:2 --lean 0deg..50deg:2deg`")
 }
 
 /// Contours over the two swept quantities: the turn across, the speed upward, as the field draws it.
@@ -64,13 +74,10 @@ fn figure(report: &OwnedReport, show: &str) -> Result<Figure, Failure> {
     };
     let axes: Vec<(usize, Vec<f64>)> = (0..given.len()).map(|k| (k, distinct(k))).filter(|(_, v)| v.len() > 1).collect();
     let [(up, rows), (across, columns)] = &axes[..] else {
-        return Err(Failure::Argument(format!(
-            "a map needs two swept options, found {}; for example --speed 10..60:2 --lean 0deg..50deg:2deg",
-            axes.len()
-        )));
+        return Err(not_two(axes.len()).into());
     };
     let Some(signal) = report.signal(show) else {
-        return Err(Failure::Argument(format!("--show {show}: no such signal")));
+        return Err(argument("show", show, "unknown_signal", format!("there is no signal `{show}`")).into());
     };
     let (value_factor, value_unit) = angle_unit(&report.steady.signals[signal].unit);
     let mut nodes = Vec::with_capacity(rows.len() * columns.len());

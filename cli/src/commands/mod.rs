@@ -34,7 +34,7 @@ fn version() -> String {
 /// The whole command line.
 pub fn cli() -> Command {
     let root = Command::new("fastbike")
-        .about("Motorcycle handling and stability: steady states, modes, frequency responses, simulations")
+        .about("Motorcycle handling and stability: steady states by inverse dynamics")
         .version(version())
         .subcommand_required(true)
         .arg_required_else_help(true)
@@ -60,13 +60,4 @@ pub fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
 /// Reads the arguments of a command; clap has checked them already.
 fn read<A: clap::FromArgMatches>(matches: &ArgMatches) -> Result<A, Failure> {
     A::from_arg_matches(matches).map_err(|e| Failure::Argument(e.to_string()))
-}
-
-/// Writes to standard output; a reader that has gone (`| head`) is no failure.
-fn print(text: &[u8]) -> Result<(), Failure> {
-    use std::io::{ErrorKind, Write};
-    match std::io::stdout().lock().write_all(text) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Write { path: "standard output".to_owned(), cause: e.to_string() }),
-        _ => Ok(()),
-    }
 }

@@ -1,6 +1,6 @@
 //! `schema`: the JSON Schema of descriptions, for editors.
 
-use super::{Kind, print};
+use super::Kind;
 use crate::{Context, Exit, Failure};
 use clap::{ArgMatches, Command};
 
@@ -13,6 +13,6 @@ fn command(command: Command) -> Command {
 
 fn run(_: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let schema = mbody::assembly::schema(&context.kinds);
-    print(format!("{schema:#}\n").as_bytes())?;
+    context.console.print(format!("{schema:#}\n").as_bytes())?;
     Ok(Exit::Done)
 }

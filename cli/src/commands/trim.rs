@@ -1,14 +1,15 @@
 //! `trim`: steady state by inverse dynamics.
 
-use super::{Kind, print, read};
-use crate::arguments::{ModelArguments, OutputArguments};
-use crate::output::{self, Options, Report};
+use super::{Kind, read};
+use crate::arguments::{ModelArguments, OutputArguments, unknown_name};
+use crate::output::{self, Options, Report, Variant};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure, keep, model};
 use clap::{ArgMatches, Args, Command};
-use problem::Ending;
+use mbody::description::finding::Finding;
+use problem::{Ending, Signal};
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "trim", command, run };
@@ -21,6 +22,9 @@ struct Arguments {
     trim: TrimArguments,
     #[command(flatten)]
     output: OutputArguments,
+    /// The same analysis for a variant: another description, or `PATH=VALUE` as in --set (repeatable)
+    #[arg(long, value_name = "FILE|PATH=VALUE")]
+    versus: Vec<String>,
     /// Signals in the table of a sweep (repeatable); the figure shows them too
     #[arg(long, value_name = "SIGNAL")]
     show: Vec<String>,
@@ -38,23 +42,48 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let mut arguments: Arguments = read(matches)?;
     gear(&mut arguments);
     let request = arguments.trim.request()?;
+    arguments.output.check()?;
+    if arguments.output.plot.is_some() && request.swept() == 0 {
+        let finding = Finding::error("no_sweep", "the figure of a single point would be empty");
+        return Err(finding.with_hint("sweep something, for example `--speed 10..60:2`").into());
+    }
     let loaded = model::load(&arguments.model, context)?;
     let mut steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "trim")?;
     steady
         .warnings
         .extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
-    let report = report("trim", &loaded.name, &arguments.show, steady)?.in_axes(arguments.output.axes);
+    let mut report = report("trim", &loaded.name, &arguments.show, steady)?;
+    for variant in &arguments.versus {
+        report.variants.push(versus(variant, &arguments, &report.steady.signals, context)?);
+    }
+    let report = report.in_axes(arguments.output.axes);
     let mut text = Vec::new();
     let options = Options { palette: context.palette, angles: arguments.output.angles() };
     let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
     written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
+    // what was computed is told before anything else can fail
+    context.console.print(&text)?;
+    context.console.warn(&report.warnings);
     let figure = arguments.output.plot.is_some().then(|| figure(&report)).transpose()?;
-    keep::results(&arguments.output, &report, figure.as_ref(), &arguments.model)?;
-    print(&text)?;
-    for warning in &report.warnings {
-        eprintln!("warning: {warning}");
-    }
+    keep::results(context, &arguments.output, &report, figure.as_ref(), &arguments.model)?;
     Ok(exit(&report))
+}
+
+/// The same analysis for a variant, its values in the order of the base's signals.
+fn versus(variant: &str, arguments: &Arguments, signals: &[Signal], context: &Context) -> Result<Variant, Failure> {
+    let mut model = arguments.model.clone();
+    match variant.contains('=') {
+        true => model.set.push(variant.to_owned()),
+        false => model.model = variant.to_owned(),
+    }
+    let loaded = model::load(&model, context)?;
+    let steady = steady::run(&arguments.trim.request()?, &loaded.assembled.system, &arguments.trim.backend, variant)?;
+    let order: Vec<Option<usize>> = signals.iter().map(|s| steady.signals.iter().position(|v| v.name == s.name)).collect();
+    let mut points = steady.points;
+    for point in points.iter_mut().filter(|p| !p.values.is_empty()) {
+        point.values = order.iter().map(|k| k.map_or(f64::NAN, |k| point.values[k])).collect();
+    }
+    Ok(Variant { name: variant.to_owned(), points })
 }
 
 /// `--gear` is a parameter of the element `engine`.
@@ -83,6 +112,8 @@ pub struct OwnedReport {
     shown: Vec<usize>,
     /// Points in the axes asked for.
     pub points: Vec<output::Point>,
+    /// Variants in the axes asked for.
+    pub variants: Vec<Variant>,
     /// What the reader should know.
     pub warnings: Vec<String>,
 }
@@ -93,6 +124,7 @@ impl OwnedReport {
         let mut report = Report::new(self.command, &self.model, self.steady.given.clone(), &self.steady.signals);
         report.points = self.points.clone();
         report.shown = self.shown.clone();
+        report.variants = self.variants.clone();
         report.warnings = self.warnings.clone();
         report.axes = self.axes;
         report
@@ -101,8 +133,9 @@ impl OwnedReport {
     /// Refers all values to other axes.
     #[must_use]
     pub fn in_axes(mut self, axes: output::Axes) -> Self {
-        let turned = self.view().in_axes(axes).points;
-        self.points = turned;
+        let turned = self.view().in_axes(axes);
+        let (points, variants) = (turned.points, turned.variants);
+        (self.points, self.variants) = (points, variants);
         self.axes = axes;
         self
     }
@@ -121,14 +154,13 @@ pub fn report(command: &'static str, model: &str, show: &[String], mut steady: S
             Some(i) => shown.push(i),
             None => {
                 let names = steady.signals.iter().map(|s| s.name.as_str());
-                let hint = mbody::description::finding::suggestion(name, names).map(|h| format!(" ({h})")).unwrap_or_default();
-                return Err(Failure::Argument(format!("--show {name}: no such signal{hint}")));
+                return Err(unknown_name("show", name, ("signal", name), names).into());
             }
         }
     }
     let points = std::mem::take(&mut steady.points);
     let warnings = std::mem::take(&mut steady.warnings);
-    Ok(OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, warnings })
+    Ok(OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, variants: Vec::new(), warnings })
 }
 
 /// Lines over the quantity that is swept, one panel per shown signal.
@@ -137,7 +169,7 @@ fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
     let varies = |k: usize| report.points.windows(2).any(|w| w[0].given[k] != w[1].given[k]);
     let swept: Vec<usize> = (0..given.len()).filter(|&k| varies(k)).collect();
     let Some(&x) = swept.first() else {
-        return Err(Failure::Argument("--plot needs a sweep, for example --speed 10..60:2".to_owned()));
+        return Err(Finding::error("no_sweep", "all points of the sweep are the same").into());
     };
     let defaults = ["steer.torque", "steer.angle", "chassis.roll", "front_tire.normal_force", "rear_tire.normal_force"];
     let shown: Vec<usize> = match report.shown.is_empty() {
@@ -149,9 +181,12 @@ fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
         let signal = &report.steady.signals[s];
         let (value_factor, value_unit) = angle_unit(&signal.unit);
         let mut curves: Vec<Curve> = Vec::new();
-        for point in &report.points {
-            // a second swept quantity names the curves
-            let name: Vec<String> = swept[1..].iter().map(|&k| label(&given[k].name, &given[k].unit, point.given[k])).collect();
+        let base = report.points.iter().map(|p| (if report.variants.is_empty() { "" } else { "base" }, p));
+        let variants = report.variants.iter().flat_map(|v| v.points.iter().map(move |p| (v.name.as_str(), p)));
+        for (variant, point) in base.chain(variants) {
+            // variants and a second swept quantity name the curves
+            let labels = swept[1..].iter().map(|&k| label(&given[k].name, &given[k].unit, point.given[k]));
+            let name: Vec<String> = labels.chain((!variant.is_empty()).then(|| variant.to_owned())).collect();
             let name = name.join(", ");
             let at = (point.given[x] * factor, point.value(s) * value_factor);
             match curves.iter_mut().find(|c| c.name == name) {

@@ -2,7 +2,7 @@
 //!
 //! The first line names the columns: `given.<name>` for what was prescribed, `ending`, `iterations`, `residual`, then the signals under the
 //! names that `units` lists in the JSON output. There is no line of units, so that every reader of CSV takes the columns as numbers.
-//! A value that is not finite or was not computed is an empty cell.
+//! A value that is not finite or was not computed is an empty cell. With `--versus`, a first column `variant` tells the rows apart.
 
 use super::report::Report;
 use super::{Kind, Options};
@@ -14,12 +14,16 @@ fn write(report: &Report<'_>, _: &Options, out: &mut dyn io::Write) -> io::Resul
     let mut table = ::csv::Writer::from_writer(out);
     let given = report.given.iter().map(|g| format!("given.{}", g.name));
     let outcome = ["ending", "iterations", "residual"].map(str::to_owned);
-    table.write_record(given.chain(outcome).chain(report.signals.iter().map(|s| s.name.clone())))?;
-    for point in &report.points {
+    // a first column tells variants apart, where there are any
+    let tagged = !report.variants.is_empty();
+    let tag = |name: &str| tagged.then(|| name.to_owned()).into_iter();
+    table.write_record(tag("variant").chain(given).chain(outcome).chain(report.signals.iter().map(|s| s.name.clone())))?;
+    let variants = report.variants.iter().flat_map(|v| v.points.iter().map(move |p| (v.name.as_str(), p)));
+    for (name, point) in report.points.iter().map(|p| ("base", p)).chain(variants) {
         let given = (0..report.given.len()).map(|k| cell(point.given.get(k).copied().unwrap_or(f64::NAN)));
         let outcome = [point.ending.name().to_owned(), point.iterations.to_string(), cell(point.residual)];
         let values = (0..report.signals.len()).map(|k| cell(point.value(k)));
-        table.write_record(given.chain(outcome).chain(values))?;
+        table.write_record(tag(name).chain(given).chain(outcome).chain(values))?;
     }
     table.flush()
 }

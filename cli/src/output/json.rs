@@ -19,7 +19,7 @@ fn write(report: &Report<'_>, _: &Options, out: &mut dyn io::Write) -> io::Resul
 fn object(report: &Report<'_>) -> Value {
     let units: Map<String, Value> = report.signals.iter().map(|s| (s.name.clone(), json!(s.unit))).collect();
     let given_units: Map<String, Value> = report.given.iter().map(|g| (g.name.clone(), json!(g.unit))).collect();
-    json!({
+    let mut object = json!({
         "fastbike": env!("CARGO_PKG_VERSION"),
         "command": report.command,
         "model": report.model,
@@ -28,7 +28,13 @@ fn object(report: &Report<'_>) -> Value {
         "units": units,
         "points": report.points.iter().map(|p| point(report, p)).collect::<Vec<_>>(),
         "warnings": report.warnings,
-    })
+    });
+    if !report.variants.is_empty() {
+        let points = |v: &super::Variant| v.points.iter().map(|p| point(report, p)).collect::<Vec<_>>();
+        let variants: Vec<Value> = report.variants.iter().map(|v| json!({ "variant": v.name, "points": points(v) })).collect();
+        object["versus"] = variants.into();
+    }
+    object
 }
 
 fn point(report: &Report<'_>, point: &Point) -> Value {

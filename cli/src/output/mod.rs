@@ -17,11 +17,12 @@ mod report;
 mod sample;
 mod table;
 mod units;
+mod versus;
 
 pub use axes::Axes;
 pub use palette::Palette;
 pub use progress::Progress;
-pub use report::{Given, Point, Report};
+pub use report::{Given, Point, Report, Variant};
 pub use units::{Angles, Shown};
 
 use std::io;

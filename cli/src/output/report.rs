@@ -42,6 +42,15 @@ impl Point {
     }
 }
 
+/// The same analysis for a variant of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// What the user wrote after `--versus`.
+    pub name: String,
+    /// Its points, in the order of the report's, with the values of the report's signals (NaN where the variant has no such signal).
+    pub points: Vec<Point>,
+}
+
 /// Everything that a command such as `trim` or `map` found out. Values are SI.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
@@ -59,6 +68,8 @@ pub struct Report<'a> {
     pub shown: Vec<usize>,
     /// The points in the order of the sweep.
     pub points: Vec<Point>,
+    /// The same analysis for variants.
+    pub variants: Vec<Variant>,
     /// What the reader should know beside the results. The table leaves them to standard error.
     pub warnings: Vec<String>,
 }
@@ -66,7 +77,17 @@ pub struct Report<'a> {
 impl<'a> Report<'a> {
     /// An empty report in ISO axes.
     pub fn new(command: &'a str, model: &'a str, given: Vec<Given>, signals: &'a [Signal]) -> Self {
-        Self { command, model, axes: Axes::Iso, given, signals, shown: Vec::new(), points: Vec::new(), warnings: Vec::new() }
+        Self {
+            command,
+            model,
+            axes: Axes::Iso,
+            given,
+            signals,
+            shown: Vec::new(),
+            points: Vec::new(),
+            variants: Vec::new(),
+            warnings: Vec::new(),
+        }
     }
 
     /// The same report with all values, given ones and thresholds included, referred to `axes`.
@@ -74,7 +95,7 @@ impl<'a> Report<'a> {
         if axes == self.axes {
             return self;
         }
-        for point in &mut self.points {
+        for point in self.points.iter_mut().chain(self.variants.iter_mut().flat_map(|v| &mut v.points)) {
             let given = self.given.iter().map(|g| g.name.as_str());
             let signals = self.signals.iter().map(|s| s.name.as_str());
             point.given.iter_mut().zip(given).chain(point.values.iter_mut().zip(signals)).for_each(|(v, name)| *v = turned(*v, name));

@@ -4,7 +4,7 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Point, Report};
-use super::{Angles, Kind, Options};
+use super::{Angles, Kind, Options, versus};
 use problem::Ending;
 use std::io;
 
@@ -32,10 +32,11 @@ fn write(report: &Report<'_>, options: &Options, out: &mut dyn io::Write) -> io:
         writeln!(out, "{}", styled(faint, line))?;
     }
     match report.points.as_slice() {
-        [] => Ok(()),
-        [point] => write_one(report, point, options, out),
-        points => write_several(report, points, options, out),
+        [] => {}
+        [point] => write_one(report, point, options, out)?,
+        points => write_several(report, points, options, out)?,
     }
+    versus::write(report, options, out)
 }
 
 /// `20 m/s`, angles in the chosen unit.
@@ -172,7 +173,7 @@ fn write_summary(report: &Report<'_>, points: &[Point], options: &Options, out: 
 }
 
 /// The signals of a table of several points.
-fn chosen(report: &Report<'_>) -> Vec<usize> {
+pub(super) fn chosen(report: &Report<'_>) -> Vec<usize> {
     if !report.shown.is_empty() {
         return report.shown.clone();
     }

@@ -35,15 +35,15 @@ fn cholesky<S: SystemScalar>(D: &mut [[S; 6]; 6], n: usize) {
 fn solve<S: SystemScalar>(L: &[[S; 6]; 6], b: &mut [S], n: usize) {
     for i in 0..n {
         for k in 0..i {
-            b[i] = b[i] - L[i][k] * b[k];
+            b[i] -= L[i][k] * b[k];
         }
-        b[i] = b[i] / L[i][i];
+        b[i] /= L[i][i];
     }
     for i in (0..n).rev() {
         for k in i + 1..n {
-            b[i] = b[i] - L[k][i] * b[k];
+            b[i] -= L[k][i] * b[k];
         }
-        b[i] = b[i] / L[i][i];
+        b[i] /= L[i][i];
     }
 }
 
@@ -117,7 +117,7 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
             x[a] = w.u[first + a] - A.dot(w.U[first + a]);
         }
         if n == 1 {
-            x[0] = x[0] / w.D[i][0][0];
+            x[0] /= w.D[i][0][0];
         } else {
             solve(&w.D[i], &mut x, n);
         }

@@ -48,6 +48,10 @@ pub fn assemble(file: &str, library: &dyn Library, kinds: &Kinds, overrides: &[O
         Ok(document) => document,
         Err(errors) => return (None, errors),
     };
+    if document.value().is_null() {
+        let finding = Finding::error("empty_file", "the description is empty").in_file(file);
+        return (None, finding.with_hint("`fastbike`, `name`, `urdf` and `base` are needed at least").into());
+    }
     let (of_tree, of_elements): (Vec<&Override>, Vec<&Override>) = overrides.iter().partition(|o| is_tree_path(&o.0));
     for (path, value) in of_elements {
         override_entry(&mut document, path, value, &mut findings);

@@ -6,7 +6,7 @@ use crate::description::quantity::dimension::{
 };
 use crate::description::quantity::{Dimensioned, NonNegativeQuantity, PositiveQuantity, Quantity};
 use crate::force::{Air, Damping, Friction, Spring, SpringDamperLaw, Stops};
-use crate::scalar::{CubicSpline, Pchip, spline::Ends};
+use crate::scalar::{CubicSpline, Pchip, spline::CurveError, spline::Ends};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -190,10 +190,23 @@ fn spring<M: Motion>(s: SpringDescription<M>, site: &mut Site<'_>) -> Option<Spr
     match CubicSpline::new(&x, &y, Ends::Natural) {
         Ok(spline) => Some(Spring::Table(spline)),
         Err(error) => {
-            site.refuse("spring.table", "invalid_table", error.to_string());
+            refuse_table(site, "spring.table", &error, ("deflection", "force"), M::Deflection::DIMENSION.unit);
             None
         }
     }
+}
+
+/// Why two lists make no table, at the entry that is to be changed.
+fn refuse_table(site: &mut Site<'_>, key: &str, error: &CurveError, (x, y): (&str, &str), unit: &str) {
+    let (entry, message) = match *error {
+        CurveError::TooFewPoints { found, needed } => (x.to_owned(), format!("the table has {found} rows, expected at least {needed}")),
+        CurveError::Unpaired { abscissas, ordinates } => (y.to_owned(), format!("`{x}` has {abscissas} values, but `{y}` has {ordinates}")),
+        CurveError::NotIncreasing { point, at } => {
+            (format!("{x}.{point}"), format!("`{x}` must increase, but {at} {unit} is not beyond the value before it"))
+        }
+        CurveError::NotFinite { point } => (format!("{y}.{point}"), "a value of the table is not finite".to_owned()),
+    };
+    site.refuse(&format!("{key}.{entry}"), "invalid_table", message);
 }
 
 fn damping<M: Motion>(d: DamperDescription<M>, site: &mut Site<'_>) -> Option<Damping> {
@@ -209,7 +222,7 @@ fn damping<M: Motion>(d: DamperDescription<M>, site: &mut Site<'_>) -> Option<Da
             match Pchip::new(&x, &y) {
                 Ok(curve) => Some(Damping::Table(curve)),
                 Err(error) => {
-                    site.refuse("damper.table", "invalid_table", error.to_string());
+                    refuse_table(site, "damper.table", &error, ("rate", "force"), M::Rate::DIMENSION.unit);
                     None
                 }
             }

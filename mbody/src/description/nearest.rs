@@ -2,7 +2,8 @@
 
 /// The candidate that `name` most probably stands for.
 ///
-/// Compares by edit distance (with transpositions) regardless of case, `-` and blanks; at most a third of the letters may differ.
+/// Compares by edit distance (with transpositions) regardless of case, `-` and blanks; at most a third of the letters may differ, so
+/// that a name of two letters resembles only itself.
 /// Failing that, a candidate of which `name` is a part, or the reverse. `None` where nothing is near.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // edit distance takes time and memory with the product of the lengths: a name this long is no typing error
@@ -12,13 +13,12 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     }
     let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
     let sought = plain(name);
-    let allowed = (sought.chars().count() / 3).max(1);
+    let allowed = sought.chars().count() / 3;
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
         let known = plain(candidate);
         let distance = strsim::damerau_levenshtein(&sought, &known);
-        // a name of one or two letters resembles every other one
-        let near = distance == 0 || (distance <= allowed && distance < known.chars().count());
+        let near = distance <= allowed;
         let part = sought.len() >= 4 && known.len() >= 4 && (known.contains(&sought) || sought.contains(&known));
         let rank = if near { distance } else { 1000 + distance };
         if (near || part) && best.is_none_or(|(r, _)| rank < r) {
@@ -61,6 +61,8 @@ mod tests {
         assert_eq!(nearest("damper", known), Some("spring_damper"));
         assert_eq!(nearest("color", known), None);
         assert_eq!(nearest("q", ["x", "y"]), None);
+        assert_eq!(nearest("kp", ["km", "kPa"]), None);
+        assert_eq!(nearest("KN", ["kN", "mN"]), Some("kN"));
         assert_eq!(nearest(&"x".repeat(100_000), known), None);
         assert_eq!(suggestion("color", ["x", "y"]).as_deref(), Some("known here: `x`, `y`"));
     }

@@ -73,7 +73,10 @@ impl<S: Real> Div for Jet<S> {
     type Output = Self;
     #[inline(always)]
     fn div(self, b: Self) -> Self {
-        self * b.recip()
+        // x = q b, differentiated twice
+        let x = self.x / b.x;
+        let d = (self.d - x * b.d) / b.x;
+        Self::new(x, d, (self.dd - d * b.d * 2.0 - x * b.dd) / b.x)
     }
 }
 

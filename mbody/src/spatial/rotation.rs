@@ -151,6 +151,6 @@ impl<S: Real> Mul for Rotation<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, b: Self) -> Self {
-        Self { columns: [&self * b.columns[0], &self * b.columns[1], &self * b.columns[2]] }
+        Self { columns: [self * b.columns[0], self * b.columns[1], self * b.columns[2]] }
     }
 }

@@ -5,7 +5,7 @@
 //! right, so that for small slips `Fy ≈ C_α a − C_γ γ` with both stiffnesses positive. One file holds one law.
 //!
 //! The element [`Tire`] puts a law on a wheel ([`wheel`]) with a carcass ([`deformable`], [`vertical`]); [`ThinDiscLinear`] is the
-//! closed form of a benchmark. Their rows in the table of kinds are [`ELEMENT_KINDS`].
+//! tire of a benchmark. Their rows stand in [`crate::KINDS`].
 
 pub mod carcass;
 pub mod compact_motorcycle;
@@ -36,8 +36,3 @@ pub use law::{AnyTireLaw, Friction, Slip, TireLaw};
 pub use thin_disc_linear::{ThinDiscLinear, ThinDiscLinearDescription};
 pub use vertical::{Relaxation, Vertical};
 pub use wheel::Wheel;
-
-use mbody::assembly::ElementKind;
-
-/// The element kinds of this folder.
-pub const ELEMENT_KINDS: &[ElementKind] = &[ElementKind::of::<TireDescription>(), ElementKind::of::<ThinDiscLinearDescription>()];

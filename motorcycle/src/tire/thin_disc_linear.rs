@@ -13,21 +13,20 @@
 //! Source: definition of the benchmark, see `models/vehicles/moto11/SOURCE.md`.
 //! Range: slips below about 0.1; no saturation. The cut of the load has a kink, so do not let the wheel hover.
 
+use super::carcass::{Elastic, RoadContact};
+use super::description::{LOW_SPEED, checked, wheel};
 use super::law::{Friction, Slip, TireLaw};
+use super::linear_normalized::{LinearNormalized, LinearNormalizedParameters};
 use super::patch::{Patch, limits, outputs};
 use super::wheel::{Rolling, Wheel};
 use mbody::assembly::{ElementDescription, Site};
+use mbody::contact::Profile;
 use mbody::description::quantity::dimension::{Damping, Length, Number, PerAngle, Speed, Stiffness};
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
 use mbody::force::{Declared, Effort, Energy, Evaluated, ForceLaw};
 use mbody::scalar::SystemScalar;
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-use super::carcass::{Elastic, RoadContact};
-use super::description::wheel;
-use super::linear_normalized::LinearNormalized;
-use mbody::contact::Profile;
 
 /// A disc on a vertical spring, with friction linear in slip, camber and load.
 #[derive(Clone, Debug)]
@@ -137,19 +136,19 @@ impl ElementDescription for ThinDiscLinearDescription {
     type Law = ThinDiscLinear;
     fn assemble(self, site: &mut Site<'_>) -> Option<ThinDiscLinear> {
         let profile = Profile::Disc { radius: self.radius.si() };
-        let parameters = super::linear_normalized::LinearNormalizedParameters {
+        let parameters = LinearNormalizedParameters {
             longitudinal_stiffness: self.longitudinal_stiffness.si(),
             cornering_stiffness: self.cornering_stiffness.si(),
             camber_stiffness: self.camber_stiffness.si(),
             aligning_stiffness: 0.0,
             twisting_stiffness: 0.0,
         };
-        let law = super::description::checked("cornering_stiffness", parameters.law(), site);
+        let law = checked("cornering_stiffness", parameters.law(), site);
         Some(ThinDiscLinear {
             wheel: wheel(site, &self.wheel, profile, self.road)?,
             normal: Elastic { stiffness: self.stiffness.si(), damping: self.damping.si() },
             law: law?,
-            low_speed: self.low_speed.map_or(super::description::LOW_SPEED, Quantity::si),
+            low_speed: self.low_speed.map_or(LOW_SPEED, Quantity::si),
         })
     }
 }

@@ -88,9 +88,11 @@ impl QuantityError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::DecimalComma { instead, .. } => Some(format!("write `{instead}`")),
-            Self::UnknownUnit { nearest, .. } => nearest.map(|unit| format!("did you mean `{unit}`?")),
+            Self::UnknownUnit { nearest: Some(unit), .. } => Some(format!("did you mean `{unit}`?")),
             Self::Ambiguous { .. } => Some("write `kg/(m s)` or `kg s/m`, not `kg/m s`".to_string()),
-            Self::Unreadable { .. } => Some("write a unit like `kN/m`, `N s/m`, `kg m^2`".to_string()),
+            Self::UnknownUnit { nearest: None, .. } | Self::Unreadable { .. } => {
+                Some("write a unit like `kN/m`, `N s/m`, `kg m^2`".to_string())
+            }
             Self::WrongDimension { hint, .. } => hint.map(str::to_string),
             Self::NotANumber { .. } => Some("write a number with an optional unit, like `58 kN/m`".to_string()),
             Self::NotFinite { .. } | Self::OutOfRange { .. } => None,

@@ -65,7 +65,10 @@ fn unknown_key(pointer: &str, key: &str, value: &Value, schema: &Value) -> Mista
     // what is there already is not what is meant
     let free = || known.into_iter().flatten().map(|(name, _)| name.as_str()).filter(|name| value.get(name).is_none());
     let meant = nearest(key, free()).map(str::to_string);
-    let finding = Finding::error("unknown_key", format!("unknown key `{key}`")).with_hint_from(suggestion(key, free()));
+    let all = known.into_iter().flatten().map(|(name, _)| name.as_str());
+    let there = nearest(key, all).filter(|_| meant.is_none()).map(|name| format!("did you mean `{name}`, which is here already?"));
+    let hint = there.or_else(|| suggestion(key, free()));
+    let finding = Finding::error("unknown_key", format!("unknown key `{key}`")).with_hint_from(hint);
     let key = key.replace('~', "~0").replace('/', "~1");
     Mistake { meant, ..Mistake::at(format!("{pointer}/{key}"), About::Key, finding) }
 }

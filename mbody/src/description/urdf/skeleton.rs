@@ -217,6 +217,10 @@ impl<'a> Checker<'a> {
         }
         let parent = |name: &str| Some(joints[carrier[*number.get(name)?]?].parent.as_str());
         self.loops(parent);
+        // the second link of a name looks like another root
+        if number.len() < links.len() {
+            return None;
+        }
         self.roots(&carrier);
         if self.findings.len() > before { None } else { Some(order(links, joints, &carrier, &number)) }
     }

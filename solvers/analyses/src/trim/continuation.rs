@@ -40,6 +40,9 @@ pub struct Walk {
     pub smallest_fraction: f64,
     /// Room to a declared limit, in units of its nominal value, below which it explains the end of a path.
     pub room: f64,
+    /// Largest distance between a step's prediction and its solution, in units of the scale of each unknown. A solution
+    /// farther away belongs to another branch, and the step is halved.
+    pub largest_correction: f64,
     /// Tolerances of the method.
     pub options: AlgebraicOptions,
 }
@@ -47,7 +50,7 @@ pub struct Walk {
 impl Default for Walk {
     fn default() -> Self {
         let options = AlgebraicOptions { residual_tolerance: 1e-10, max_iterations: 40, ..Default::default() };
-        Self { largest_steps: Vec::new(), smallest_fraction: 1.0 / 256.0, room: 0.03, options }
+        Self { largest_steps: Vec::new(), smallest_fraction: 1.0 / 256.0, room: 0.03, largest_correction: 10.0, options }
     }
 }
 
@@ -83,9 +86,12 @@ impl Walk {
                 Some((sb, xb)) => x.iter().zip(xb).map(|(x, b)| x + (x - b) * ((next - s) / (s - sb))).collect(),
                 None => x.clone(),
             };
+            // without a second point the prediction is the last point, and the correction is the step itself
+            let allowance = self.largest_correction * if before.is_some() { 1.0 } else { 3.0 };
+            let predicted = trial.clone();
             let outcome = self.solve(problem, method, &at(next), &mut trial);
             iterations += outcome.iterations;
-            if outcome.converged() {
+            if outcome.converged() && distance(&predicted, &trial, problem.unknown_scale()) <= allowance {
                 before = Some((s, std::mem::replace(&mut x, trial)));
                 (s, residual) = (next, outcome.residual);
                 step *= 1.5;
@@ -149,4 +155,9 @@ impl Walk {
             outputs: outputs.to_vec(),
         }
     }
+}
+
+/// Largest difference in units of the scales.
+fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> f64 {
+    a.iter().zip(b).zip(scale).map(|((a, b), s)| ((a - b) / s).abs()).fold(0.0, f64::max)
 }

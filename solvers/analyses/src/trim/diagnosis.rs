@@ -56,7 +56,8 @@ pub(super) fn moving_together(jacobian: &DMatrix<f64>, unknowns: &[Variable], sc
 
 /// The declared limit that is violated most at the last evaluated point.
 pub(super) fn violated(problem: &TrimProblem<'_>) -> Option<Ending> {
-    worst(problem, 0.0)
+    // a limit that is met exactly (top speed at full throttle) is not violated by rounding
+    worst(problem, -1e-6)
 }
 
 /// The declared limit with the least room at the last evaluated point, if there is less room than `margin`.

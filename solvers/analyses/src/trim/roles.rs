@@ -43,10 +43,10 @@ pub enum TrimError {
     },
     /// Too few or too many conditions.
     #[error(
-        "{} unknowns but {} equations: {} ({})",
+        "{} unknowns but {} equations: {} {}",
         unknowns,
         equations,
-        if unknowns > equations { "give more signals" } else { "free more signals" },
+        if unknowns > equations { "nothing determines" } else { "nothing is left open for" },
         involved.join(", ")
     )]
     Count {

@@ -1,0 +1,169 @@
+//! The written form of the tires: what it becomes, and what it says about mistakes.
+
+use mbody::assembly::{Assembled, ElementDescription, Kinds, assemble};
+use mbody::description::Library;
+use mbody::description::finding::Findings;
+use motorcycle::tire::{ThinDiscLinearDescription, TireDescription};
+use std::borrow::Cow;
+
+/// A description with one element, the example tree, and the files that the element may name.
+struct Files {
+    description: String,
+    tree: String,
+}
+
+impl Library for Files {
+    fn text(&self, name: &str) -> Option<Cow<'_, str>> {
+        Some(Cow::Borrowed(match name {
+            "test.yaml" => &self.description,
+            "test.urdf" => &self.tree,
+            "sel04_120_70.yaml" => include_str!("../../models/tires/sel04_120_70.yaml"),
+            "broken.yaml" => "magic_formula_motorcycle: { nominal_load: 1100, crown_radius: much }",
+            "chained.yaml" => "file: sel04_120_70.yaml",
+            _ => return None,
+        }))
+    }
+}
+
+fn with_tree(kind: &str, parameters: &str, tree: &str) -> (Option<Assembled>, Findings) {
+    let description =
+        format!("fastbike: 1\nname: test\nurdf: test.urdf\nbase: vehicle_base\nelements:\n  tire: {{ {kind}: {parameters} }}\n");
+    assemble("test.yaml", &Files { description, tree: tree.into() }, &Kinds::standard().with(motorcycle::KINDS), &[])
+}
+
+fn build(parameters: &str) -> (Option<Assembled>, Findings) {
+    with_tree(TireDescription::KIND, parameters, TireDescription::TREE)
+}
+
+/// A tire with some of its entries replaced.
+fn tire(changes: &[(&str, &str)]) -> String {
+    let mut entries = vec![
+        ("wheel", WHEEL),
+        ("radius", "0.3 m"),
+        ("crown", "{ torus: { radius: 60 mm } }"),
+        ("carcass", "{ deformable: { radial: { stiffness: 150 kN/m, damping: 300 }, lateral: { stiffness: 160 kN/m, damping: 100 } } }"),
+        ("law", "{ file: sel04_120_70.yaml }"),
+    ];
+    for change in changes {
+        entries.retain(|e| e.0 != change.0);
+        entries.push(*change);
+    }
+    let entries: Vec<String> = entries.iter().map(|(key, value)| format!("{key}: {value}")).collect();
+    format!("{{ {} }}", entries.join(", "))
+}
+
+/// The front wheel joint of the example tree.
+const WHEEL: &str = "front_axle";
+
+/// The only finding: its code, path and message.
+fn refused(parameters: &str) -> (&'static str, String, String) {
+    only(build(parameters))
+}
+
+fn only((assembled, findings): (Option<Assembled>, Findings)) -> (&'static str, String, String) {
+    assert!(assembled.is_none(), "accepted");
+    let all: Vec<_> = findings.iter().collect();
+    let [finding] = all[..] else { panic!("{findings:?}") };
+    (finding.code, finding.path.clone(), finding.message.clone())
+}
+
+#[test]
+fn the_examples_can_be_built() {
+    for (kind, example, tree) in [
+        (TireDescription::KIND, TireDescription::EXAMPLE, TireDescription::TREE),
+        (ThinDiscLinearDescription::KIND, ThinDiscLinearDescription::EXAMPLE, ThinDiscLinearDescription::TREE),
+    ] {
+        let (assembled, findings) = with_tree(kind, example, tree);
+        let assembled = assembled.unwrap_or_else(|| panic!("{kind}: {findings:?}"));
+        assert!(assembled.system.outputs().iter().any(|o| o.name == "tire.normal_force"));
+        assert!(assembled.system.inputs().iter().any(|i| i.signal.name.ends_with("_road.height") && i.rate.is_some()));
+    }
+}
+
+#[test]
+fn states_follow_the_carcass() {
+    let spring = "{ stiffness: 160 kN/m, damping: 100 N s/m }";
+    let vertical = |relaxation: &str| format!("{{ vertical: {{ stiffness: 150 kN/m, damping: 800 N s/m, relaxation: {relaxation} }} }}");
+    for (carcass, expected) in [
+        (format!("{{ deformable: {{ radial: {spring}, lateral: {spring} }} }}"), vec!["carcass_lateral"]),
+        (
+            format!("{{ deformable: {{ radial: {spring}, lateral: {spring}, longitudinal: {spring} }} }}"),
+            vec!["carcass_lateral", "carcass_longitudinal"],
+        ),
+        ("{ vertical: { stiffness: 150 kN/m, stiffness_quadratic: 1e6, damping: 800 N s/m } }".into(), vec![]),
+        (vertical("none"), vec![]),
+        (vertical(&format!("{{ elastic: {spring} }}")), vec!["carcass_lateral"]),
+        (vertical("{ slip: { length: { constant: 0.2 m } } }"), vec!["lagged_lateral_slip"]),
+        (
+            vertical(
+                "{ slip: { length: { cornering_stiffness: [8.633e-6, 3.725e-8, 8.389e-10] }, longitudinal_length: { constant: 80 mm } } }",
+            ),
+            vec!["lagged_lateral_slip", "lagged_longitudinal_slip"],
+        ),
+        (vertical("{ force: { length: { load_polynomial: [0.1012, 1.297e-4, -3.267e-8] } } }"), vec!["lagged_lateral_force"]),
+        (vertical("{ force_without_camber: { length: { constant: 0.244 m } } }"), vec!["lagged_lateral_force"]),
+    ] {
+        let (assembled, findings) = build(&tire(&[("carcass", &carcass)]));
+        let assembled = assembled.unwrap_or_else(|| panic!("{carcass}: {findings:?}"));
+        let names = assembled.system.unknowns().iter().filter_map(|u| u.signal.name.strip_prefix("tire.").map(str::to_owned));
+        assert_eq!(names.collect::<Vec<_>>(), expected, "{carcass}");
+    }
+}
+
+#[test]
+fn crowns_laws_and_options_are_read() {
+    let table = "{ table: { inclination: [0, 15 deg, 30 deg, 45 deg, 60 deg], support: [300 mm, 291.8 mm, 267.8 mm, 229.7 mm, 180 mm] } }";
+    let linear = "{ linear_normalized: { longitudinal_stiffness: 20, cornering_stiffness: 14, camber_stiffness: 0.9 } }";
+    let sharp = "{ sharp_linear: { longitudinal_stiffness: 1e4, cornering_stiffness: [11174], camber_stiffness: [938.6] } }";
+    for change in [
+        ("crown", "disc"),
+        ("crown", "{ ellipse: { radial: 45 mm, lateral: 65 mm } }"),
+        ("crown", table),
+        ("law", linear),
+        ("law", sharp),
+        ("contact", "bonded"),
+        ("contact", "lifting"),
+        ("rolling_resistance", "{ constant: 0.015 }"),
+        ("rolling_resistance", "{ quadratic: { at_rest: 0.018, per_speed_squared: 6.8e-6 } }"),
+        ("effective_radius_fraction", "0.4"),
+        ("low_speed", "0.5 km/h"),
+        ("pressure", "2.25 bar"),
+    ] {
+        let (assembled, findings) = build(&tire(&[change]));
+        assert!(assembled.is_some(), "{change:?}: {findings:?}");
+    }
+}
+
+#[test]
+fn mistakes_are_named_where_they_are() {
+    let law = "{ linear_normalized: { longitudinal_stiffness: 20, cornering_stiffness: -14, camber_stiffness: 0.9 } }";
+    let table = "{ table: { inclination: [0, 0.3, 0.6, 0.9], support: [0.31, 0.3, 0.27, 0.23] } }";
+    let empty = "{ vertical: { stiffness: 1e5, damping: 800, relaxation: { force: { length: { load_polynomial: [] } } } } }";
+    for (change, code, key, words) in [
+        (("wheel", "slider"), "wrong_joint", "wheel", "`slider` slides"),
+        (("crown", "{ torus: { radius: 0.4 m } }"), "invalid_crown", "crown", "exceeds the radius"),
+        (("crown", table), "contradictory_entries", "crown", "0.31 m on the middle plane, but `radius` is 0.3 m"),
+        (("carcass", empty), "missing_entry", "carcass.vertical.relaxation", "needs coefficients"),
+        (("law", law), "invalid_tire_data", "law", "`cornering_stiffness` must be positive, but is -14"),
+        (("law", "{ file: missing.yaml }"), "missing_file", "law.file", "`missing.yaml` was not found"),
+        (("law", "{ file: broken.yaml }"), "invalid_tire_file", "law.file", "`broken.yaml`: invalid type: string \"much\""),
+        (("law", "{ file: chained.yaml }"), "invalid_tire_file", "law.file", "holds the parameters themselves"),
+        (("rolling_resistance", "pressure"), "missing_entry", "rolling_resistance", "needs the entry `pressure`"),
+    ] {
+        let (found_code, path, message) = refused(&tire(&[change]));
+        assert_eq!((found_code, path.as_str()), (code, format!("elements.tire.tire.{key}").as_str()), "{message}");
+        assert!(message.contains(words), "{message}");
+    }
+}
+
+#[test]
+fn a_wheel_that_turns_the_other_way_is_refused() {
+    let tree = TireDescription::TREE;
+    let (first, rest) = tree.split_at(tree.find(&format!("<joint name=\"{WHEEL}\"")).expect("the joint"));
+    for (axis, words) in [("0 -1 0", "points right"), ("0 0 1", "points neither left nor right")] {
+        let turned = format!("{first}{}", rest.replacen("<axis xyz=\"0 1 0\"/>", &format!("<axis xyz=\"{axis}\"/>"), 1));
+        let (code, path, message) = only(with_tree(TireDescription::KIND, &tire(&[]), &turned));
+        assert_eq!((code, path.as_str()), ("wrong_axis", "elements.tire.tire.wheel"));
+        assert!(message.contains(words) && message.contains("must point left"), "{message}");
+    }
+}

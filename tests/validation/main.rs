@@ -1,0 +1,13 @@
+//! Are they the right equations? Published cases, one file each.
+
+#![allow(non_snake_case)]
+
+mod gsxr1000;
+mod ref11;
+
+use validation::evidence;
+
+#[test]
+fn the_table_of_evidence_is_up_to_date() {
+    evidence::hold("validation", &[ref11::EVIDENCE, gsxr1000::EVIDENCE]);
+}

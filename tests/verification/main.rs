@@ -1,0 +1,16 @@
+//! Do we solve the equations right? Conformity of every kind, identities, conservation, agreement of methods and codes.
+
+#![allow(non_snake_case)]
+
+mod every_element;
+mod every_joint;
+mod mechanisms;
+mod motion;
+mod recorded;
+
+use validation::evidence;
+
+#[test]
+fn the_table_of_evidence_is_up_to_date() {
+    evidence::hold("verification", &[every_joint::EVIDENCE, every_element::EVIDENCE, mechanisms::EVIDENCE]);
+}
