@@ -185,6 +185,10 @@ impl TrimArguments {
     }
 }
 
+/// First guess of the heave at rest, m: tires that merely touch the road carry nothing, and a vehicle that they do not carry would
+/// find its balance on one wheel.
+const FIRST_HEAVE: f64 = -0.01;
+
 /// Who drives: the engine or the brakes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
@@ -247,6 +251,7 @@ impl Request {
         let mut trim = Trim::at_rest(plant);
         if let Some(base) = base_name(plant) {
             fix_if_there(&mut trim, &format!("{base}.roll"), 0.0)?;
+            trim.guess(&format!("{base}.heave"), FIRST_HEAVE);
         }
         fix_if_there(&mut trim, "steer.angle", 0.0)?;
         for unknown in plant.unknowns() {

@@ -137,9 +137,20 @@ fn set_tree_entry(robot: &mut Robot, path: &str, text: &str, findings: &mut Find
     }
 }
 
-/// Overrides an entry of the description; `joint.<name>.locked` stands under `joints` there.
+/// Overrides an entry of the description; `joint.<name>.locked` stands under `joints` there, also where the description has no
+/// word about this joint.
 fn override_entry(document: &mut Document, path: &str, text: &str, findings: &mut Findings) {
-    let path = path.strip_prefix("joint.").map_or_else(|| path.to_owned(), |joint| format!("joints.{joint}"));
+    let mut path = path.to_owned();
+    if let Some((joint, option)) = path.strip_prefix("joint.").and_then(|rest| rest.rsplit_once('.')) {
+        let entry = format!("joints.{joint}");
+        if document.get(&entry).is_none() {
+            match Document::parse(document.file(), &serde_json::json!({ "joints": { joint: {} } }).to_string()) {
+                Ok(empty) => document.merge(empty),
+                Err(errors) => findings.extend(errors),
+            }
+        }
+        path = format!("{entry}.{option}");
+    }
     if let Err(errors) = document.set(&path, text) {
         findings.extend(errors);
     }

@@ -147,8 +147,10 @@ impl<'p> TrimProblem<'p> {
             let Ok(()) = self.derivatives(&x) else { continue };
             self.rows = candidates.clone();
             let scaled = self.scaled_jacobian();
+            // what rounding leaves of the largest entries is no structure
+            let rounding = 1e-13 * scaled.amax().max(1.0);
             for (row, touched) in touched.iter_mut().enumerate() {
-                *touched |= scaled.row(row).iter().any(|e| e.abs() > 1e-13);
+                *touched |= scaled.row(row).iter().any(|e| e.abs() > rounding);
             }
             generic = Some(scaled);
         }
