@@ -253,7 +253,7 @@ fn unknown_keys_are_never_passed_over() {
 #[test]
 fn unknown_parts_of_a_tree_are_told() {
     for sample in corpus().iter().filter(|s| s.spoiled.ends_with(".urdf")) {
-        for (from, to, word) in [("<mass ", "<mass colour=\"red\" ", "colour"), ("<inertial>", "<inertial><wheight/>", "wheight")] {
+        for (from, to, word) in [("<mass ", "<mass tint=\"red\" ", "tint"), ("<inertial>", "<inertial><wheight/>", "wheight")] {
             let (_, findings) = assembled(&sample.with(sample.text().replacen(from, to, 1)));
             assert!(findings.iter().any(|f| f.message.contains(word)), "`{word}` in {}: {findings}", sample.spoiled);
         }
