@@ -73,8 +73,7 @@ impl Agreement {
         self.comparisons += 1;
         let difference = (value - expected).abs();
         let used = if difference == 0.0 { 0.0 } else { difference / allowed };
-        // a difference that is not a number is a miss as well
-        let missed = !(difference <= allowed);
+        let missed = difference.is_nan() || difference > allowed;
         let told = || format!("{what}: {value} is not {expected}; {difference:.3e} apart, allowed {allowed:.3e} ({reason})");
         if missed {
             self.misses.push(told());

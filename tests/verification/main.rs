@@ -7,10 +7,11 @@ mod every_joint;
 mod mechanisms;
 mod motion;
 mod recorded;
+mod trim;
 
 use validation::evidence;
 
 #[test]
 fn the_table_of_evidence_is_up_to_date() {
-    evidence::hold("verification", &[every_joint::EVIDENCE, every_element::EVIDENCE, mechanisms::EVIDENCE]);
+    evidence::hold("verification", &[every_joint::EVIDENCE, every_element::EVIDENCE, mechanisms::EVIDENCE, trim::EVIDENCE]);
 }

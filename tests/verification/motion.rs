@@ -7,7 +7,7 @@ use mbody::dynamics::{System, TreePlant};
 use nalgebra::{DMatrix, DVector};
 use problem::{At, Dae, Differentiable, EquationKind, Matrix, Outputs, Seeds, UnknownKind};
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 use validation::reference::repository_text;
 
 /// The tree of an example and a description of one element; files of tires come from the bundled models.
@@ -60,6 +60,30 @@ pub enum Regime {
 /// All of them.
 pub const REGIMES: [Regime; 4] = [Regime::Straight, Regime::Leaning, Regime::Braking, Regime::Flying];
 
+/// The example of a kind, assembled, and its tree without elements.
+pub struct Example {
+    pub kind: ElementKind,
+    system: Arc<System>,
+    bare: Arc<System>,
+}
+
+/// The examples of all kinds, assembled once.
+pub fn examples() -> &'static [Example] {
+    static EXAMPLES: LazyLock<Vec<Example>> = LazyLock::new(|| {
+        let assembled = |kind: &ElementKind, elements: &str| {
+            let (assembled, findings) = on_tree(kind, elements);
+            assembled.unwrap_or_else(|| panic!("{}: {findings}", kind.name)).system
+        };
+        let example = |kind: &ElementKind| Example {
+            system: assembled(kind, &format!("{{ example: {{ {}: {} }} }}", kind.name, kind.example)),
+            bare: assembled(kind, "{}"),
+            kind: *kind,
+        };
+        fastbike::standard_kinds().elements().iter().map(example).collect()
+    });
+    &EXAMPLES
+}
+
 /// A plant with its arguments, and the same tree without elements.
 pub struct Motion {
     pub plant: TreePlant,
@@ -70,16 +94,12 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The example of a kind, at rest in the design pose.
-    pub fn of(kind: &ElementKind) -> Self {
-        let system = |elements: &str| -> Arc<System> {
-            let (assembled, findings) = on_tree(kind, elements);
-            assembled.unwrap_or_else(|| panic!("{}: {findings}", kind.name)).system
-        };
-        let plant = TreePlant::new(system(&format!("{{ example: {{ {}: {} }} }}", kind.name, kind.example)));
+    /// An example at rest in the design pose.
+    pub fn of(example: &Example) -> Self {
+        let plant = TreePlant::new(example.system.clone());
         let y: Vec<f64> = plant.unknowns().iter().map(|u| u.design).collect();
         let (yd, u) = (vec![0.0; y.len()], vec![0.0; plant.inputs().len()]);
-        Self { plant, bare: TreePlant::new(system("{}")), y, yd, u }
+        Self { plant, bare: TreePlant::new(example.bare.clone()), y, yd, u }
     }
 
     /// Residual and outputs.

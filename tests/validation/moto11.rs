@@ -1,0 +1,150 @@
+//! The benchmark motorcycle `moto11`, which several codes solve: inverse dynamics, one steady turn, a sweep of 400 steady turns.
+
+use analyses::trim::{Trim, TrimProblem, Walk};
+use fastbike::plan::Turn;
+use mbody::algorithm::kinematics;
+use mbody::algorithm::rnea::rnea;
+use mbody::assembly::{BaseDescription, assemble_urdf};
+use mbody::spatial::{Rotation, Vec3};
+use mbody::stage::Workspace;
+use native::Newton;
+use problem::AlgebraicMethod;
+use sundials::{Kinsol, Strategy};
+use validation::agreement::{Agreement, relative};
+use validation::evidence::Row;
+use validation::reference::{Table, text};
+use validation::vehicle::{State, Vehicle, free, given, turning};
+
+/// Rows of the table.
+pub const EVIDENCE: &[Row] = validation::evidence![
+    inverse_dynamics_of_sixty_four_states_agrees => (
+        "`moto11` on a free base: inverse dynamics of 64 states",
+        "Pinocchio 4.1.0; `tests/reference/moto11/moto11.csv`",
+        "relative 1e-10 of the largest entry: two codes in double precision"
+    ),
+    the_steady_turn_is_met => (
+        "`moto11`: steady turn at 36.3 m/s and 4.2 m/s²: roll and pitch in both orders of rotation, steering angle, both torques",
+        "codes on Pinocchio (Python, C++) and CasADi agree; `tests/reference/moto11/moto11_checks.yaml`",
+        "half a unit of the last printed digit"
+    ),
+    none_of_four_hundred_turns_fails => (
+        "`moto11`: 400 steady turns, 10 to 60 m/s, 0 to 8 m/s², each from its neighbor in the grid as in the benchmark: none fails, by KINSOL and Newton",
+        "definition of the benchmark",
+        "exact; scaled residual 1e-10"
+    ),
+];
+
+#[test]
+fn inverse_dynamics_of_sixty_four_states_agrees() {
+    let (assembled, findings) = assemble_urdf("moto11_free.urdf", &text("moto11/moto11_free.urdf"), BaseDescription::Free, 9.81, &[]);
+    let system = assembled.unwrap_or_else(|| panic!("{findings}")).system;
+    let model = system.model();
+    let table = Table::read("moto11/moto11.csv");
+    let mut agreement = Agreement::on("moto11: RNEA of 64 states against Pinocchio");
+    agreement.holds("64 states", table.len() == 64);
+    let two_codes = relative(1e-10).because("two codes in double precision");
+    let mut w = Workspace::new(model);
+    for row in 0..table.len() {
+        // position, quaternion and joints; then velocities, accelerations, forces, all with the linear part of the base first
+        let numbers = table.numbers(row);
+        w.position.q.copy_from_slice(&numbers[..12]);
+        w.velocity.v.copy_from_slice(&numbers[12..23]);
+        w.acceleration.vd.copy_from_slice(&numbers[23..34]);
+        kinematics::position(model, &mut w.position);
+        kinematics::velocity(model, &w.position, &mut w.velocity);
+        kinematics::acceleration(model, &w.position, &w.velocity, &mut w.acceleration);
+        rnea(model, &w.position, &w.velocity, &w.acceleration, &w.applied, &mut w.transmitted, &mut w.tau);
+        agreement.all_near(&format!("state {}", row + 1), &w.tau, &numbers[34..], &two_codes);
+    }
+    agreement.assert();
+}
+
+/// Steady turn at a speed of the mass center of the chassis; the lateral acceleration is speed times yaw rate.
+fn turn(speed: f64, acceleration: f64) -> State {
+    let request = turning(&[speed], Turn::YawRate, &[acceleration / speed]);
+    let request = given(free(request, "chassis.forward_speed"), "mass_center.point_speed", speed);
+    Vehicle::bundled("moto11").state(&request)
+}
+
+#[test]
+fn the_steady_turn_is_met() {
+    let state = turn(10.0 + 50.0 * 10.0 / 19.0, 80.0 / 19.0);
+    let (roll, pitch) = (state.get("chassis.roll"), state.get("chassis.pitch"));
+    // the same pose as yaw, pitch, roll: R = Rz Ry(θ') Rx(φ')
+    let R = Rotation::about_x(roll) * Rotation::about_y(pitch);
+    let [x, y, z]: [Vec3<f64>; 3] = R.columns;
+    let (other_roll, other_pitch) = (y.z.atan2(z.z), -x.z.asin());
+    let mut agreement = Agreement::on("moto11: steady turn");
+    for (what, value, text) in [
+        ("roll, yaw-roll-pitch, deg", roll.to_degrees(), "-23.694738"),
+        ("pitch, yaw-roll-pitch, deg", pitch.to_degrees(), "-0.495606"),
+        ("roll, yaw-pitch-roll, deg", other_roll.to_degrees(), "-23.695527"),
+        ("pitch, yaw-pitch-roll, deg", other_pitch.to_degrees(), "-0.453825"),
+        ("steering angle, deg", state.get("steer.angle").to_degrees(), "0.240263"),
+        ("steering torque, N m", state.get("steer.torque"), "1.15657"),
+        ("driving torque, N m", state.get("drive.torque"), "101.6514"),
+    ] {
+        agreement.printed(what, value, text);
+    }
+    agreement.assert();
+}
+
+/// The first guess of the benchmark in our signals: the mass center, 0.62 m over the base point, starts 0.61 m over the road.
+const GUESS: [(&str, f64); 2] = [("chassis.heave", 0.61 - 0.62), ("drive.torque", 50.0)];
+
+/// Sweeps the grid of the benchmark with one method; returns failures and iterations.
+fn sweep(method: &mut dyn AlgebraicMethod) -> (Vec<String>, usize) {
+    let mut plant = Vehicle::bundled("moto11").plant();
+    let mut trim = Trim::steady(&plant);
+    let first_speed = 10.0;
+    trim.give("mass_center.point_speed", first_speed).expect("an output");
+    trim.give("chassis.yaw_rate", 0.0).expect("a velocity");
+    for signal in ["steer.torque", "drive.torque"] {
+        trim.free(signal, 0.0).expect("an input");
+    }
+    let speeds = [("chassis.forward_speed", 1.0), ("front_wheel.spin_rate", 0.30), ("rear_wheel.spin_rate", 0.32)];
+    speeds.iter().for_each(|(signal, radius)| trim.guess(signal, first_speed / radius));
+    GUESS.iter().for_each(|(signal, guess)| trim.guess(signal, *guess));
+    let mut problem = TrimProblem::new(&mut plant, &trim).expect("a square system");
+    let at = |name: &str| {
+        let variable = problem.variables().find(name).expect("a signal");
+        problem.unknowns().iter().position(|u| *u == variable).expect("an unknown")
+    };
+    let (heave, roll, scaled) = (at("chassis.heave"), at("chassis.roll"), speeds.map(|(signal, _)| at(signal)));
+    let walk = Walk::default();
+    let (mut straight, mut speed_before) = (problem.guess().to_vec(), first_speed);
+    let (mut failures, mut iterations) = (Vec::new(), 0);
+    for i in 0..20 {
+        let speed = 10.0 + 50.0 * f64::from(i) / 19.0;
+        let mut x = straight.clone();
+        scaled.iter().for_each(|&k| x[k] *= speed / speed_before);
+        let mut leaned_before = 0.0;
+        for k in 0..20 {
+            let acceleration = 8.0 * f64::from(k) / 19.0;
+            // the guess leans on (to the negative side in a left turn), and the mass center sinks with the cosine of the lean
+            let leaned = (acceleration / 9.81).atan();
+            let before = x[roll];
+            x[roll] -= leaned - leaned_before;
+            x[heave] *= x[roll].cos() / before.cos();
+            leaned_before = leaned;
+            let outcome = walk.solve(&mut problem, method, &[speed, acceleration / speed], &mut x);
+            iterations += outcome.iterations;
+            if !outcome.converged() {
+                failures.push(format!("{speed:.2} m/s, {acceleration:.2} m/s²: {:?}", outcome.ending));
+            }
+            if k == 0 {
+                (straight, speed_before) = (x.clone(), speed);
+            }
+        }
+    }
+    (failures, iterations)
+}
+
+#[test]
+fn none_of_four_hundred_turns_fails() {
+    for method in [&mut Newton::new() as &mut dyn AlgebraicMethod, &mut Kinsol::new(Strategy::LineSearch)] {
+        let (failures, iterations) = sweep(method);
+        println!("moto11: 400 turns by {}: {} failures, {:.2} iterations each", method.name(), failures.len(), iterations as f64 / 400.0);
+        assert!(failures.is_empty(), "{}: {failures:#?}", method.name());
+    }
+}
