@@ -78,12 +78,13 @@ impl Source {
 }
 
 /// Whether there is a text at the path.
-fn readable(path: &Path, model: &str) -> Result<(), Finding> {
+fn readable(path: &Path, model: &str) -> Result<(), Findings> {
     let missing = |message: String| Finding::error("missing_file", message);
     if path.is_dir() {
-        return Err(no_description(path, model));
+        return Err(no_description(path, model).into());
     }
-    fs::read_to_string(path).map(drop).map_err(|e| match e.kind() {
+    let Err(error) = fs::read_to_string(path) else { return Ok(()) };
+    let finding = match error.kind() {
         ErrorKind::NotFound => {
             let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
             let bundled = nearest(stem, bundled_models()).map(|name| format!("there is a bundled model `{name}`, named without ending"));
@@ -91,8 +92,9 @@ fn readable(path: &Path, model: &str) -> Result<(), Finding> {
         }
         ErrorKind::InvalidData => Finding::error("not_text", format!("file `{model}` is no text in UTF-8")),
         ErrorKind::PermissionDenied => missing(format!("file `{model}` may not be read")),
-        _ => missing(format!("file `{model}` cannot be read: {e}")),
-    })
+        _ => missing(format!("file `{model}` cannot be read: {error}")),
+    };
+    Err(finding.into())
 }
 
 /// Something is there, but no description.

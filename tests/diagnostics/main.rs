@@ -14,6 +14,8 @@
 //! After a deliberate change of words: `DIAGNOSTICS_UPDATE=1 cargo test -p validation --test diagnostics`, then read the difference.
 
 mod case;
+mod fuzz;
+mod mutation;
 
 use case::Case;
 use std::fs;

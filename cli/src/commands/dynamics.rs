@@ -6,7 +6,7 @@ use crate::{Context, Exit, Failure, model};
 use clap::{ArgMatches, Args, Command};
 use mbody::algorithm::{aba::aba, crba::crba, energy, kinematics, rnea::rnea};
 use mbody::assembly::BaseDescription;
-use mbody::description::finding::{Finding, suggestion};
+use mbody::description::finding::{Finding, Findings, suggestion};
 use mbody::description::quantity::{Dimensioned, dimension::Acceleration, parse_quantity};
 use mbody::model::Model;
 use mbody::stage::Workspace;
@@ -74,7 +74,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         Failure::from(wrong(whole.replace(&at, "")).at_line(&text, e.line(), e.column()))
     })?;
     let tree = loaded.assembled.system.model();
-    let order = Order::new(tree, states.order.as_deref()).map_err(|finding| Failure::from(finding.in_file(&file).at_path("order")))?;
+    let order = Order::new(tree, states.order.as_deref(), &file)?;
     let mut results = Vec::new();
     for (k, state) in states.states.iter().enumerate() {
         results.push(evaluate(tree, &order, state).map_err(|why| Failure::from(wrong(why).at_path(format!("states.{k}"))))?);
@@ -98,7 +98,8 @@ struct Order {
 }
 
 impl Order {
-    fn new(tree: &Model, wanted: Option<&[String]>) -> Result<Self, Finding> {
+    fn new(tree: &Model, wanted: Option<&[String]>, file: &str) -> Result<Self, Findings> {
+        let wrong = |message: String| Finding::error("bad_order", message).in_file(file).at_path("order");
         let layout = tree.layout();
         let free = |range: &std::ops::Range<usize>, independent: &[usize]| -> Vec<usize> {
             range.clone().filter_map(|k| independent.iter().position(|&i| i == k)).collect()
@@ -120,12 +121,12 @@ impl Order {
                             false => format!("there is no moving joint `{name}`"),
                         };
                         let hint = suggestion(name, known).filter(|_| !twice);
-                        return Err(Finding::error("bad_order", message).with_hint_from(hint));
+                        return Err(wrong(message).with_hint_from(hint).into());
                     }
                 }
             }
             if let Some(missing) = bodies.first() {
-                return Err(Finding::error("bad_order", format!("joint `{}` is missing in the order", missing.joint_name)));
+                return Err(wrong(format!("joint `{}` is missing in the order", missing.joint_name)).into());
             }
             bodies = sorted;
         }

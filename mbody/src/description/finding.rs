@@ -72,7 +72,7 @@ impl Finding {
             column: None,
             path: String::new(),
             excerpt: None,
-            message: message.into(),
+            message: one_line(message.into()),
             hint: None,
         }
     }
@@ -114,13 +114,13 @@ impl Finding {
 
     /// The same finding with advice.
     pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
+        self.hint = Some(one_line(hint.into()));
         self
     }
 
     /// The same finding with advice, where there is any.
     pub fn with_hint_from(mut self, hint: Option<String>) -> Self {
-        self.hint = hint.or(self.hint);
+        self.hint = hint.map(one_line).or(self.hint);
         self
     }
 
@@ -293,6 +293,14 @@ impl<'a> IntoIterator for &'a Findings {
     }
 }
 
+/// The text with control characters shown as such (`\n`): names and texts of an input go into messages as they are.
+fn one_line(text: String) -> String {
+    match text.contains(char::is_control) {
+        true => text.chars().map(|c| if c.is_control() { c.escape_debug().to_string() } else { c.to_string() }).collect(),
+        false => text,
+    }
+}
+
 /// A line of a text, counted from one, without indentation and shortened to what fits on a screen.
 fn excerpt(text: &str, line: usize) -> Option<String> {
     const LONGEST: usize = 120;
@@ -363,6 +371,12 @@ mod tests {
     fn becomes_json_without_empty_entries() {
         let json = serde_json::to_string(&Findings::from(Finding::note("n", "m").in_file("f"))).unwrap_or_default();
         assert_eq!(json, r#"[{"severity":"note","code":"n","file":"f","path":"","message":"m"}]"#);
+    }
+
+    #[test]
+    fn a_message_is_one_line() {
+        let finding = Finding::error("e", "expected '>' not '\n'").with_hint("a\tb");
+        assert_eq!((finding.message.as_str(), finding.hint.as_deref()), ("expected '>' not '\\n'", Some("a\\tb")));
     }
 
     #[test]

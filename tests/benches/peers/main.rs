@@ -1,0 +1,22 @@
+//! How fast the engine is, as a quotient to what the best peers need for the same equations.
+//!
+//! `cargo bench -p validation` measures every case and prints the table. What counts is the least processor time of the measuring
+//! thread over many batches: on a shared machine the mean of wall-clock time says more about the neighbors. Where a Python with the
+//! package `pin` is named by `PINOCCHIO_PYTHON`, Pinocchio's inverse and forward dynamics are timed in the same run.
+#![allow(non_snake_case)]
+
+mod clock;
+mod kernels;
+mod peer;
+mod plants;
+mod sweep;
+
+use clock::Clock;
+
+fn main() {
+    let mut clock = Clock::from_arguments();
+    kernels::run(&mut clock);
+    plants::run(&mut clock);
+    sweep::run(&mut clock);
+    peer::print(&clock.finish());
+}

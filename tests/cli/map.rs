@@ -1,0 +1,35 @@
+//! `map`: a grid and its figure.
+
+use super::{fastbike, folder, json, number};
+use std::fs;
+
+const GRID: [&str; 6] = ["map", "ref11", "--speed", "20..40:10", "--lean", "0deg..30deg:15deg"];
+
+#[test]
+fn points_are_those_of_trims() {
+    let mut arguments = GRID.to_vec();
+    arguments.extend(["--format", "json"]);
+    let map = json(&arguments, 0);
+    let points = map["points"].as_array().expect("points");
+    assert_eq!(points.len(), 9);
+    let corner = &points[8];
+    let trim = json(&["trim", "ref11", "--speed", "40", "--lean", "30deg", "--format", "json"], 0);
+    let (ours, alone) = (number(&corner["signals"]["steer.torque"]), number(&trim["points"][0]["signals"]["steer.torque"]));
+    // both are converged to a residual of 1e-10, on different ways
+    assert!((ours - alone).abs() < 1e-7 * alone.abs().max(1.0), "{ours} {alone}");
+}
+
+#[test]
+fn figures_are_written_as_svg_and_png() {
+    let folder = folder("map");
+    for (name, magic) in [("torque.svg", &b"<svg"[..]), ("torque.png", &b"\x89PNG\r\n\x1a\n"[..])] {
+        let path = folder.join(name);
+        let path_text = path.display().to_string();
+        let mut arguments = GRID.to_vec();
+        arguments.extend(["--show", "steer.torque", "--plot", &path_text]);
+        let answer = fastbike(&arguments);
+        assert_eq!(answer.status, 0, "{}", answer.stderr);
+        let bytes = fs::read(&path).expect("the figure");
+        assert!(bytes.starts_with(magic), "{name} begins with {:?}", &bytes[..16.min(bytes.len())]);
+    }
+}
