@@ -114,11 +114,6 @@ impl State {
         value
     }
 
-    /// Whether the vehicle has a signal of this name.
-    pub fn has(&self, name: &str) -> bool {
-        self.signals.iter().any(|s| s.name == name)
-    }
-
     /// Unknowns and inputs.
     pub fn arguments(&self) -> (&[f64], &[f64]) {
         let (y, rest) = self.point.values.split_at(self.system.unknowns().len());

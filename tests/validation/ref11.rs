@@ -13,7 +13,7 @@ pub const EVIDENCE: &[Row] = validation::evidence![
     three_states_are_met => (
         "`ref11`: straight at 30 m/s, leaning by 0.6 rad, braking with 3 m/s² in a lean of 0.4 rad: pose, speeds, torques, carcass states",
         "independent prototype, theory manual B.3",
-        "half of the ninth printed digit; the torque of two states 1e-8 N m, as a second prototype differs there"
+        "half of the ninth decimal; the torque of two states 1e-8 N m, as a second prototype differs there"
     ),
     loads_side_forces_and_slips_are_met => (
         "`ref11`: loads, side forces, slip angles and cambers, straight and leaning",
