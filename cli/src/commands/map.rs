@@ -1,8 +1,8 @@
 //! `map`: steady states over a grid of two prescribed quantities, as a contour figure.
 
-use super::trim::{OwnedReport, angle_unit, exit, report};
+use super::trim::{OwnedReport, angle_unit, exit, report, shown};
 use super::{Kind, read};
-use crate::arguments::{ModelArguments, OutputArguments, argument};
+use crate::arguments::{ModelArguments, OutputArguments};
 use crate::output::Options;
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Contour, Figure, Node};
@@ -40,8 +40,9 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(not_two(request.swept()).into());
     }
     let loaded = model::load(&arguments.model, context)?;
+    let shown = shown(std::slice::from_ref(&arguments.show), &loaded.assembled.system)?;
     let steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "map")?;
-    let report = report("map", &loaded.name, std::slice::from_ref(&arguments.show), steady)?.in_axes(arguments.output.axes);
+    let report = report("map", &loaded.name, shown, steady).in_axes(arguments.output.axes);
     let mut text = Vec::new();
     let options = Options { palette: context.palette, angles: arguments.output.angles() };
     let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
@@ -77,7 +78,7 @@ fn figure(report: &OwnedReport, show: &str) -> Result<Figure, Failure> {
         return Err(not_two(axes.len()).into());
     };
     let Some(signal) = report.signal(show) else {
-        return Err(argument("show", show, "unknown_signal", format!("there is no signal `{show}`")).into());
+        return Err(Failure::Argument(format!("there is no signal `{show}`")));
     };
     let (value_factor, value_unit) = angle_unit(&report.steady.signals[signal].unit);
     let mut nodes = Vec::with_capacity(rows.len() * columns.len());

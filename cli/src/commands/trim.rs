@@ -9,7 +9,9 @@ use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure, keep, model};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Finding;
+use mbody::dynamics::{System, TreePlant};
 use problem::{Ending, Signal};
+use std::sync::Arc;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "trim", command, run };
@@ -48,11 +50,12 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(finding.with_hint("sweep something, for example `--speed 10..60:2`").into());
     }
     let loaded = model::load(&arguments.model, context)?;
+    let shown = shown(&arguments.show, &loaded.assembled.system)?;
     let mut steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "trim")?;
     steady
         .warnings
         .extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
-    let mut report = report("trim", &loaded.name, &arguments.show, steady)?;
+    let mut report = report("trim", &loaded.name, shown, steady);
     for variant in &arguments.versus {
         report.variants.push(versus(variant, &arguments, &report.steady.signals, context)?);
     }
@@ -146,21 +149,21 @@ impl OwnedReport {
     }
 }
 
-/// Makes a report; `show` names the signals of the table.
-pub fn report(command: &'static str, model: &str, show: &[String], mut steady: Steady) -> Result<OwnedReport, Failure> {
-    let mut shown = Vec::new();
-    for name in show {
-        match steady.signals.iter().position(|s| s.name == *name) {
-            Some(i) => shown.push(i),
-            None => {
-                let names = steady.signals.iter().map(|s| s.name.as_str());
-                return Err(unknown_name("show", name, ("signal", name), names).into());
-            }
-        }
-    }
+/// Indices of the signals that `--show` names; asked for before anything is computed.
+pub fn shown(show: &[String], system: &Arc<System>) -> Result<Vec<usize>, Failure> {
+    let signals = steady::signals(&TreePlant::new(system.clone()));
+    let index = |name: &String| {
+        let known = || signals.iter().map(|s| s.name.as_str());
+        known().position(|s| s == name).ok_or_else(|| Failure::from(unknown_name("show", name, ("signal", name), known())))
+    };
+    show.iter().map(index).collect()
+}
+
+/// Makes a report; `shown` are the signals of the table.
+pub fn report(command: &'static str, model: &str, shown: Vec<usize>, mut steady: Steady) -> OwnedReport {
     let points = std::mem::take(&mut steady.points);
     let warnings = std::mem::take(&mut steady.warnings);
-    Ok(OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, variants: Vec::new(), warnings })
+    OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, variants: Vec::new(), warnings }
 }
 
 /// Lines over the quantity that is swept, one panel per shown signal.
