@@ -7,13 +7,13 @@ pub mod arguments;
 pub mod backend;
 pub mod commands;
 pub mod console;
-pub mod keep;
 pub mod library;
 pub mod model;
 pub mod output;
 pub mod plan;
 pub mod plot;
 pub mod report;
+pub mod results;
 pub mod steady;
 
 use console::{Captured, Console};

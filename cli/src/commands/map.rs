@@ -1,12 +1,11 @@
 //! `map`: steady states over a grid of two prescribed quantities, as a contour figure.
 
-use super::trim::{OwnedReport, angle_unit, exit, report, shown};
 use super::{Kind, read};
-use crate::arguments::{ModelArguments, OutputArguments};
-use crate::output::Options;
+use crate::arguments::{ModelArguments, OutputArguments, argument};
+use crate::output::{Angles, Report};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Contour, Figure, Node};
-use crate::{Context, Exit, Failure, keep, model, steady};
+use crate::{Context, Exit, Failure, model, results, steady};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Finding;
 
@@ -40,19 +39,10 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(not_two(request.swept()).into());
     }
     let loaded = model::load(&arguments.model, context)?;
-    let shown = shown(std::slice::from_ref(&arguments.show), &loaded.assembled.system)?;
+    let shown = results::shown(std::slice::from_ref(&arguments.show), &loaded.assembled.system)?;
     let steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "map")?;
-    let report = report("map", &loaded.name, shown, steady).in_axes(arguments.output.axes);
-    let mut text = Vec::new();
-    let options = Options { palette: context.palette, angles: arguments.output.angles() };
-    let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
-    written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
-    // what was computed is told before anything else can fail
-    context.console.print(&text)?;
-    context.console.warn(&report.warnings);
-    let figure = arguments.output.plot.is_some().then(|| figure(&report, &arguments.show)).transpose()?;
-    keep::results(context, &arguments.output, &report, figure.as_ref(), &arguments.model)?;
-    Ok(exit(&report))
+    let report = results::report("map", &loaded.name, shown, steady);
+    results::deliver(context, (&arguments.model, &arguments.output), report, |report| figure(report, &arguments.show))
 }
 
 /// A map of fewer or more than two swept options.
@@ -62,8 +52,8 @@ fn not_two(swept: usize) -> Finding {
 }
 
 /// Contours over the two swept quantities: the turn across, the speed upward, as the field draws it.
-fn figure(report: &OwnedReport, show: &str) -> Result<Figure, Failure> {
-    let given = &report.steady.given;
+fn figure(report: &Report, show: &str) -> Result<Figure, Failure> {
+    let given = &report.given;
     let distinct = |k: usize| {
         let mut values: Vec<f64> = Vec::new();
         for point in &report.points {
@@ -78,23 +68,25 @@ fn figure(report: &OwnedReport, show: &str) -> Result<Figure, Failure> {
         return Err(not_two(axes.len()).into());
     };
     let Some(signal) = report.signal(show) else {
-        return Err(Failure::Argument(format!("there is no signal `{show}`")));
+        return Err(argument("show", show, "unknown_signal", format!("there is no signal `{show}`")).into());
     };
-    let (value_factor, value_unit) = angle_unit(&report.steady.signals[signal].unit);
+    // angles are drawn in degrees
+    let shown = |unit| Angles::Degrees.show(unit);
+    let value_shown = shown(&report.signals[signal].unit);
     let mut nodes = Vec::with_capacity(rows.len() * columns.len());
     for row in rows {
         for column in columns {
             let point = report.points.iter().find(|p| p.given[*up] == *row && p.given[*across] == *column);
             nodes.push(match point {
-                Some(p) if p.ending == problem::Ending::Reached => Node::Value(p.value(signal) * value_factor),
+                Some(p) if p.ending == problem::Ending::Reached => Node::Value(p.value(signal) * value_shown.factor),
                 Some(p) => Node::Infeasible(p.ending.name().to_owned()),
                 None => Node::Infeasible("not_converged".to_owned()),
             });
         }
     }
-    let scaled = |values: &[f64], k: usize| values.iter().map(|v| v * angle_unit(&given[k].unit).0).collect::<Vec<f64>>();
-    let axis = |k: usize| Axis::new(given[k].name.replace('_', " "), angle_unit(&given[k].unit).1);
-    let title = format!("{} of {} in steady turns", show, report.view().model);
-    let value = Axis::new(show, value_unit);
+    let scaled = |values: &[f64], k: usize| values.iter().map(|v| v * shown(&given[k].unit).factor).collect::<Vec<f64>>();
+    let axis = |k: usize| Axis::new(given[k].name.replace('_', " "), shown(&given[k].unit).unit);
+    let title = format!("{} of {} in steady turns", show, report.model);
+    let value = Axis::new(show, value_shown.unit);
     Ok(Figure::Contour(Contour::new(title, (axis(*across), scaled(columns, *across)), (axis(*up), scaled(rows, *up)), value, nodes)?))
 }

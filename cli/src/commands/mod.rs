@@ -7,8 +7,6 @@ mod map;
 mod schema;
 mod trim;
 
-pub use trim::OwnedReport;
-
 use crate::{Context, Exit, Failure};
 use clap::{ArgMatches, Command};
 

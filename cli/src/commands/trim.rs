@@ -1,17 +1,14 @@
 //! `trim`: steady state by inverse dynamics.
 
 use super::{Kind, read};
-use crate::arguments::{ModelArguments, OutputArguments, unknown_name};
-use crate::output::{self, Options, Report, Variant};
+use crate::arguments::{ModelArguments, OutputArguments};
+use crate::output::{Angles, Report, Variant};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::steady::{self, Steady};
-use crate::{Context, Exit, Failure, keep, model};
+use crate::{Context, Exit, Failure, model, results, steady};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Finding;
-use mbody::dynamics::{System, TreePlant};
-use problem::{Ending, Signal};
-use std::sync::Arc;
+use problem::Signal;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "trim", command, run };
@@ -50,26 +47,17 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(finding.with_hint("sweep something, for example `--speed 10..60:2`").into());
     }
     let loaded = model::load(&arguments.model, context)?;
-    let shown = shown(&arguments.show, &loaded.assembled.system)?;
+    let shown = results::shown(&arguments.show, &loaded.assembled.system)?;
     let mut steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "trim")?;
     steady
         .warnings
         .extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
-    let mut report = report("trim", &loaded.name, shown, steady);
+    let mut report = results::report("trim", &loaded.name, shown, steady);
     for variant in &arguments.versus {
-        report.variants.push(versus(variant, &arguments, &report.steady.signals, context)?);
+        let variant = versus(variant, &arguments, &report.signals, context)?;
+        report.variants.push(variant);
     }
-    let report = report.in_axes(arguments.output.axes);
-    let mut text = Vec::new();
-    let options = Options { palette: context.palette, angles: arguments.output.angles() };
-    let written = (arguments.output.format.write)(&report.view(), &options, &mut text);
-    written.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })?;
-    // what was computed is told before anything else can fail
-    context.console.print(&text)?;
-    context.console.warn(&report.warnings);
-    let figure = arguments.output.plot.is_some().then(|| figure(&report)).transpose()?;
-    keep::results(context, &arguments.output, &report, figure.as_ref(), &arguments.model)?;
-    Ok(exit(&report))
+    results::deliver(context, (&arguments.model, &arguments.output), report, figure)
 }
 
 /// The same analysis for a variant, its values in the order of the base's signals.
@@ -96,79 +84,9 @@ fn gear(arguments: &mut Arguments) {
     }
 }
 
-/// Done where at least one point was reached.
-pub fn exit(report: &OwnedReport) -> Exit {
-    match report.points.iter().any(|p| p.ending == Ending::Reached) {
-        true => Exit::Done,
-        false => Exit::Unreached,
-    }
-}
-
-/// A report that owns its names.
-#[derive(Debug)]
-pub struct OwnedReport {
-    command: &'static str,
-    model: String,
-    /// What was computed.
-    pub steady: Steady,
-    axes: output::Axes,
-    shown: Vec<usize>,
-    /// Points in the axes asked for.
-    pub points: Vec<output::Point>,
-    /// Variants in the axes asked for.
-    pub variants: Vec<Variant>,
-    /// What the reader should know.
-    pub warnings: Vec<String>,
-}
-
-impl OwnedReport {
-    /// As the writers want it.
-    pub fn view(&self) -> Report<'_> {
-        let mut report = Report::new(self.command, &self.model, self.steady.given.clone(), &self.steady.signals);
-        report.points = self.points.clone();
-        report.shown = self.shown.clone();
-        report.variants = self.variants.clone();
-        report.warnings = self.warnings.clone();
-        report.axes = self.axes;
-        report
-    }
-
-    /// Refers all values to other axes.
-    #[must_use]
-    pub fn in_axes(mut self, axes: output::Axes) -> Self {
-        let turned = self.view().in_axes(axes);
-        let (points, variants) = (turned.points, turned.variants);
-        (self.points, self.variants) = (points, variants);
-        self.axes = axes;
-        self
-    }
-
-    /// Index of a signal.
-    pub fn signal(&self, name: &str) -> Option<usize> {
-        self.steady.signals.iter().position(|s| s.name == name)
-    }
-}
-
-/// Indices of the signals that `--show` names; asked for before anything is computed.
-pub fn shown(show: &[String], system: &Arc<System>) -> Result<Vec<usize>, Failure> {
-    let signals = steady::signals(&TreePlant::new(system.clone()));
-    let index = |name: &String| {
-        let known = || signals.iter().map(|s| s.name.as_str());
-        known().position(|s| s == name).ok_or_else(|| Failure::from(unknown_name("show", name, ("signal", name), known())))
-    };
-    show.iter().map(index).collect()
-}
-
-/// Makes a report; `shown` are the signals of the table.
-pub fn report(command: &'static str, model: &str, shown: Vec<usize>, mut steady: Steady) -> OwnedReport {
-    let points = std::mem::take(&mut steady.points);
-    let warnings = std::mem::take(&mut steady.warnings);
-    OwnedReport { command, model: model.to_owned(), steady, axes: output::Axes::Iso, shown, points, variants: Vec::new(), warnings }
-}
-
 /// Lines over the quantity that is swept, one panel per shown signal.
-fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
-    let given = &report.steady.given;
+fn figure(report: &Report) -> Result<Figure, Failure> {
+    let given = &report.given;
     let varies = |k: usize| report.points.windows(2).any(|w| w[0].given[k] != w[1].given[k]);
     let swept: Vec<usize> = (0..given.len()).filter(|&k| varies(k)).collect();
     let Some(&x) = swept.first() else {
@@ -179,10 +97,11 @@ fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
         true => defaults.iter().filter_map(|n| report.signal(n)).collect(),
         false => report.shown.clone(),
     };
-    let (factor, unit) = angle_unit(&given[x].unit);
+    // angles are drawn in degrees
+    let across = Angles::Degrees.show(&given[x].unit);
     let panels = shown.iter().map(|&s| {
-        let signal = &report.steady.signals[s];
-        let (value_factor, value_unit) = angle_unit(&signal.unit);
+        let signal = &report.signals[s];
+        let upward = Angles::Degrees.show(&signal.unit);
         let mut curves: Vec<Curve> = Vec::new();
         let base = report.points.iter().map(|p| (if report.variants.is_empty() { "" } else { "base" }, p));
         let variants = report.variants.iter().flat_map(|v| v.points.iter().map(move |p| (v.name.as_str(), p)));
@@ -191,29 +110,24 @@ fn figure(report: &OwnedReport) -> Result<Figure, Failure> {
             let labels = swept[1..].iter().map(|&k| label(&given[k].name, &given[k].unit, point.given[k]));
             let name: Vec<String> = labels.chain((!variant.is_empty()).then(|| variant.to_owned())).collect();
             let name = name.join(", ");
-            let at = (point.given[x] * factor, point.value(s) * value_factor);
+            let at = (point.given[x] * across.factor, point.value(s) * upward.factor);
             match curves.iter_mut().find(|c| c.name == name) {
                 Some(curve) => curve.points.push(at),
                 None => curves.push(Curve { name, points: vec![at], markers: Markers::WhenFew }),
             }
         }
-        LinePanel { y: Axis::new(signal.name.clone(), value_unit), curves }
+        LinePanel { y: Axis::new(signal.name.clone(), upward.unit), curves }
     });
     Ok(Figure::Lines(Lines {
         title: format!("Steady states of {}", report.model),
-        x: Axis::new(given[x].name.replace('_', " "), unit),
+        x: Axis::new(given[x].name.replace('_', " "), across.unit),
         panels: panels.collect(),
         bands: Vec::new(),
     }))
 }
 
-/// Angles are drawn in degrees.
-pub fn angle_unit(unit: &str) -> (f64, String) {
-    if unit == "rad" { (180.0 / std::f64::consts::PI, "deg".to_owned()) } else { (1.0, unit.to_owned()) }
-}
-
 fn label(name: &str, unit: &str, value: f64) -> String {
-    let (factor, unit) = angle_unit(unit);
-    let rounded = (value * factor * 1e6).round() / 1e6;
-    format!("{} {rounded} {unit}", name.replace('_', " "))
+    let shown = Angles::Degrees.show(unit);
+    let rounded = (value * shown.factor * 1e6).round() / 1e6;
+    format!("{} {rounded} {}", name.replace('_', " "), shown.unit)
 }

@@ -10,7 +10,7 @@ use std::io;
 
 pub(super) const KIND: Kind = Kind { name: "csv", about: "one line per point, SI units and radians", write };
 
-fn write(report: &Report<'_>, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = ::csv::Writer::from_writer(out);
     let given = report.given.iter().map(|g| format!("given.{}", g.name));
     let outcome = ["ending", "iterations", "residual"].map(str::to_owned);

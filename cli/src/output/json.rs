@@ -10,13 +10,13 @@ use std::io;
 
 pub(super) const KIND: Kind = Kind { name: "json", about: "one JSON object, SI units and radians", write };
 
-fn write(report: &Report<'_>, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, &object(report))?;
     writeln!(out)
 }
 
 /// The report as a JSON value.
-fn object(report: &Report<'_>) -> Value {
+fn object(report: &Report) -> Value {
     let units: Map<String, Value> = report.signals.iter().map(|s| (s.name.clone(), json!(s.unit))).collect();
     let given_units: Map<String, Value> = report.given.iter().map(|g| (g.name.clone(), json!(g.unit))).collect();
     let mut object = json!({
@@ -37,7 +37,7 @@ fn object(report: &Report<'_>) -> Value {
     object
 }
 
-fn point(report: &Report<'_>, point: &Point) -> Value {
+fn point(report: &Report, point: &Point) -> Value {
     let given: Map<String, Value> = report.given.iter().zip(&point.given).map(|(g, &v)| (g.name.clone(), json!(v))).collect();
     let signals: Map<String, Value> = report.signals.iter().zip(&point.values).map(|(s, &v)| (s.name.clone(), json!(v))).collect();
     let mut object = Map::new();
@@ -63,7 +63,7 @@ mod tests {
     use super::super::sample;
     use super::*;
 
-    fn text(report: &Report<'_>) -> String {
+    fn text(report: &Report) -> String {
         let mut out = Vec::new();
         write(report, &Options::default(), &mut out).expect("memory takes everything");
         String::from_utf8(out).expect("text").replace(env!("CARGO_PKG_VERSION"), "VERSION")

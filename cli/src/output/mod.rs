@@ -39,7 +39,7 @@ pub struct Kind {
 }
 
 /// Writes a report in one format.
-pub type Writer = fn(&Report<'_>, &Options, &mut dyn io::Write) -> io::Result<()>;
+pub type Writer = fn(&Report, &Options, &mut dyn io::Write) -> io::Result<()>;
 
 /// The formats; the first is the default.
 pub const KINDS: &[Kind] = &[table::KIND, json::KIND, csv::KIND];

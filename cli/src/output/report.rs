@@ -53,17 +53,17 @@ pub struct Variant {
 
 /// Everything that a command such as `trim` or `map` found out. Values are SI.
 #[derive(Clone, Debug)]
-pub struct Report<'a> {
+pub struct Report {
     /// Name of the command.
-    pub command: &'a str,
+    pub command: String,
     /// Name of the model.
-    pub model: &'a str,
+    pub model: String,
     /// Axes to which the values refer.
     pub axes: Axes,
     /// What was prescribed.
     pub given: Vec<Given>,
     /// The signals of the plant.
-    pub signals: &'a [Signal],
+    pub signals: Vec<Signal>,
     /// Indices of the signals that the table shows; empty for its own choice. The other formats hold all signals.
     pub shown: Vec<usize>,
     /// The points in the order of the sweep.
@@ -74,12 +74,12 @@ pub struct Report<'a> {
     pub warnings: Vec<String>,
 }
 
-impl<'a> Report<'a> {
+impl Report {
     /// An empty report in ISO axes.
-    pub fn new(command: &'a str, model: &'a str, given: Vec<Given>, signals: &'a [Signal]) -> Self {
+    pub fn new(command: impl Into<String>, model: impl Into<String>, given: Vec<Given>, signals: Vec<Signal>) -> Self {
         Self {
-            command,
-            model,
+            command: command.into(),
+            model: model.into(),
             axes: Axes::Iso,
             given,
             signals,
@@ -90,7 +90,13 @@ impl<'a> Report<'a> {
         }
     }
 
+    /// Index of a signal.
+    pub fn signal(&self, name: &str) -> Option<usize> {
+        self.signals.iter().position(|s| s.name == name)
+    }
+
     /// The same report with all values, given ones and thresholds included, referred to `axes`.
+    #[must_use]
     pub fn in_axes(mut self, axes: Axes) -> Self {
         if axes == self.axes {
             return self;

@@ -2,7 +2,6 @@
 
 use super::report::{Given, Point, Report};
 use problem::{Ending, Signal};
-use std::sync::OnceLock;
 
 /// A number that needs all its digits.
 pub(super) const YAW_RATE: f64 = -0.223_144_567_891_234_5;
@@ -12,34 +11,28 @@ fn given() -> Vec<Given> {
 }
 
 /// One point that was reached.
-pub(super) fn corner() -> Report<'static> {
-    static SIGNALS: OnceLock<Vec<Signal>> = OnceLock::new();
-    let signals = SIGNALS.get_or_init(|| {
-        vec![
-            Signal::new("chassis.roll", "rad", "roll angle, positive to the right"),
-            Signal::new("chassis.yaw_rate", "rad/s", "yaw rate, positive to the left"),
-            Signal::new("steer.torque", "N m", "torque on the handlebar, positive to the left"),
-            Signal::new("rear_tire.normal_force", "N", "load, positive up"),
-            Signal::new("rear_tire.slip_angle", "rad", "slip angle, positive when it pushes to the left"),
-            Signal::new("rear_tire.friction_use", "-", "share of the available friction"),
-            Signal::new("curvature", "1/m", "curvature of the path, positive to the left"),
-        ]
-    });
+pub(super) fn corner() -> Report {
+    let signals = vec![
+        Signal::new("chassis.roll", "rad", "roll angle, positive to the right"),
+        Signal::new("chassis.yaw_rate", "rad/s", "yaw rate, positive to the left"),
+        Signal::new("steer.torque", "N m", "torque on the handlebar, positive to the left"),
+        Signal::new("rear_tire.normal_force", "N", "load, positive up"),
+        Signal::new("rear_tire.slip_angle", "rad", "slip angle, positive when it pushes to the left"),
+        Signal::new("rear_tire.friction_use", "-", "share of the available friction"),
+        Signal::new("curvature", "1/m", "curvature of the path, positive to the left"),
+    ];
     let values = vec![0.6, YAW_RATE, -7.125, 1623.4567, 3e-17, 0.71, -0.011_157];
     let point = Point { given: vec![20.0, 0.6], ending: Ending::Reached, iterations: 4, residual: 1e-12, values };
     Report { points: vec![point], ..Report::new("trim", "ref11", given(), signals) }
 }
 
 /// Three points with three endings.
-pub(super) fn sweep() -> Report<'static> {
-    static SIGNALS: OnceLock<Vec<Signal>> = OnceLock::new();
-    let signals = SIGNALS.get_or_init(|| {
-        vec![
-            Signal::new("chassis.roll", "rad", "roll angle, positive to the right"),
-            Signal::new("steer.torque", "N m", "torque on the handlebar, positive to the left"),
-            Signal::new("rear_tire.normal_force", "N", "load, positive up"),
-        ]
-    });
+pub(super) fn sweep() -> Report {
+    let signals = vec![
+        Signal::new("chassis.roll", "rad", "roll angle, positive to the right"),
+        Signal::new("steer.torque", "N m", "torque on the handlebar, positive to the left"),
+        Signal::new("rear_tire.normal_force", "N", "load, positive up"),
+    ];
     let limit = Ending::Limit { name: "tire_saturated".into(), signal: "rear_tire.friction_use".into(), value: 1.02, threshold: 1.0 };
     let lost = Ending::NotConverged { because: "`steer.angle` and `chassis.roll` move together".into() };
     let point = |speed, ending, iterations, residual, values| Point { given: vec![speed, 0.6], ending, iterations, residual, values };
@@ -52,6 +45,6 @@ pub(super) fn sweep() -> Report<'static> {
 }
 
 /// No point at all.
-pub(super) fn nothing() -> Report<'static> {
-    Report::new("map", "ref11", given(), &[])
+pub(super) fn nothing() -> Report {
+    Report::new("map", "ref11", given(), Vec::new())
 }

@@ -21,7 +21,7 @@ const PREFERRED: [&str; 7] = [
     "rear_tire.friction_use",
 ];
 
-fn write(report: &Report<'_>, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let Palette { heading, faint, .. } = options.palette;
     let count = match report.points.len() {
         1 => String::new(),
@@ -46,7 +46,7 @@ fn quantity(value: f64, unit: &str, angles: Angles) -> String {
 }
 
 /// `given: …` for the quantities with these indices; nothing where there are none.
-fn write_given(report: &Report<'_>, indices: &[usize], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write_given(report: &Report, indices: &[usize], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let (Some(point), false) = (report.points.first(), indices.is_empty()) else { return Ok(()) };
     let texts = indices.iter().filter_map(|&k| {
         let given = &report.given[k];
@@ -56,7 +56,7 @@ fn write_given(report: &Report<'_>, indices: &[usize], options: &Options, out: &
 }
 
 /// A sentence on how a point ended, colored by its kind.
-fn describe(report: &Report<'_>, point: &Point, options: &Options) -> String {
+fn describe(report: &Report, point: &Point, options: &Options) -> String {
     let palette = options.palette;
     match &point.ending {
         Ending::Reached => {
@@ -73,7 +73,7 @@ fn describe(report: &Report<'_>, point: &Point, options: &Options) -> String {
 }
 
 /// One point: a line per signal, grouped by element.
-fn write_one(report: &Report<'_>, point: &Point, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write_one(report: &Report, point: &Point, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     write_given(report, &(0..report.given.len()).collect::<Vec<_>>(), options, out)?;
     writeln!(out, "ending: {}", describe(report, point, options))?;
     if point.values.is_empty() {
@@ -125,7 +125,7 @@ impl Column {
 }
 
 /// Several points: a line per point, then how many ended how.
-fn write_several(report: &Report<'_>, points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write_several(report: &Report, points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let palette = options.palette;
     let given = |p: &Point, k: usize| p.given.get(k).copied().unwrap_or(f64::NAN);
     let (fixed, swept): (Vec<usize>, Vec<usize>) =
@@ -156,7 +156,7 @@ fn write_several(report: &Report<'_>, points: &[Point], options: &Options, out: 
 }
 
 /// Number of points by ending, each cause with its first sentence.
-fn write_summary(report: &Report<'_>, points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write_summary(report: &Report, points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let reached = points.iter().filter(|p| p.ending == Ending::Reached).count();
     writeln!(out, "\n{reached} of {} points reached", points.len())?;
     let mut names: Vec<&str> = Vec::new();
@@ -173,7 +173,7 @@ fn write_summary(report: &Report<'_>, points: &[Point], options: &Options, out: 
 }
 
 /// The signals of a table of several points.
-pub(super) fn chosen(report: &Report<'_>) -> Vec<usize> {
+pub(super) fn chosen(report: &Report) -> Vec<usize> {
     if !report.shown.is_empty() {
         return report.shown.clone();
     }
@@ -186,7 +186,7 @@ mod tests {
     use super::super::sample;
     use super::*;
 
-    fn text(report: &Report<'_>, palette: Palette) -> String {
+    fn text(report: &Report, palette: Palette) -> String {
         let mut out = Vec::new();
         write(report, &Options { palette, ..Options::default() }, &mut out).expect("memory takes everything");
         String::from_utf8(out).expect("text")

@@ -10,7 +10,7 @@ use std::io;
 const SAME: f64 = 1e-9;
 
 /// For one point, the signals that differ; for several, the shown signals with their differences.
-pub(super) fn write(report: &Report<'_>, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+pub(super) fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     for variant in &report.variants {
         writeln!(out, "\n{}", styled(options.palette.heading, &format!("versus {} (difference = variant - base)", variant.name)))?;
         match (report.points.as_slice(), variant.points.as_slice()) {
@@ -21,7 +21,7 @@ pub(super) fn write(report: &Report<'_>, options: &Options, out: &mut dyn io::Wr
     Ok(())
 }
 
-fn write_one(report: &Report<'_>, variant: &Variant, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write_one(report: &Report, variant: &Variant, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let (base, other) = (&report.points[0], &variant.points[0]);
     if other.values.is_empty() || base.values.is_empty() {
         return writeln!(out, "  no difference to show: base {}, variant {}", base.ending.name(), other.ending.name());
@@ -53,7 +53,7 @@ fn write_one(report: &Report<'_>, variant: &Variant, options: &Options, out: &mu
     Ok(())
 }
 
-fn write_several(report: &Report<'_>, variant: &Variant, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write_several(report: &Report, variant: &Variant, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     for k in table::chosen(report) {
         let signal = &report.signals[k];
         let shown = options.angles.show(&signal.unit);

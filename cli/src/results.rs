@@ -1,0 +1,123 @@
+//! What a run tells and leaves: a report on standard output, warnings, a figure, and a run folder with inputs, version,
+//! statistics and results.
+
+use crate::arguments::{ModelArguments, OutputArguments, unknown_name};
+use crate::library::Source;
+use crate::output::{self, Options, Report};
+use crate::plot::{Figure, FileFormat};
+use crate::steady::{self, Steady};
+use crate::{Context, Exit, Failure};
+use mbody::description::Library;
+use mbody::dynamics::{System, TreePlant};
+use problem::Ending;
+use serde_json::json;
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    fs::write(path, bytes).map_err(|e| Failure::Write { path: path.display().to_string(), cause: e.to_string() })
+}
+
+/// Indices of the signals that `--show` names; asked for before anything is computed.
+///
+/// # Errors
+/// A name that is no signal, with the nearest one.
+pub fn shown(show: &[String], system: &Arc<System>) -> Result<Vec<usize>, Failure> {
+    let signals = steady::signals(&TreePlant::new(system.clone()));
+    let index = |name: &String| {
+        let known = || signals.iter().map(|s| s.name.as_str());
+        known().position(|s| s == name).ok_or_else(|| Failure::from(unknown_name("show", name, ("signal", name), known())))
+    };
+    show.iter().map(index).collect()
+}
+
+/// A report of steady states; `shown` are the signals of the table.
+pub fn report(command: &str, model: &str, shown: Vec<usize>, steady: Steady) -> Report {
+    let mut report = Report::new(command, model, steady.given, steady.signals);
+    (report.points, report.warnings, report.shown) = (steady.points, steady.warnings, shown);
+    report
+}
+
+/// Prints the report in the axes and the format asked for, then writes figure (`--plot`) and run folder (`--out`).
+///
+/// Done where at least one point was reached.
+pub fn deliver(
+    context: &Context,
+    (model, output): (&ModelArguments, &OutputArguments),
+    report: Report,
+    figure: impl FnOnce(&Report) -> Result<Figure, Failure>,
+) -> Result<Exit, Failure> {
+    let report = report.in_axes(output.axes);
+    let options = Options { palette: context.palette, angles: output.angles() };
+    context.console.print(&written(output.format, &report, &options, "standard output")?)?;
+    // what was computed is told before anything else can fail
+    context.console.warn(&report.warnings);
+    let figure = output.plot.is_some().then(|| figure(&report)).transpose()?;
+    keep(context, (model, output), &report, figure.as_ref())?;
+    match report.points.iter().any(|p| p.ending == Ending::Reached) {
+        true => Ok(Exit::Done),
+        false => Ok(Exit::Unreached),
+    }
+}
+
+/// The report in one format; `path` is where it goes, for the message.
+fn written(kind: &output::Kind, report: &Report, options: &Options, path: &str) -> Result<Vec<u8>, Failure> {
+    let mut text = Vec::new();
+    (kind.write)(report, options, &mut text).map_err(|e| Failure::Write { path: path.to_owned(), cause: e.to_string() })?;
+    Ok(text)
+}
+
+/// Writes figure and run folder.
+fn keep(
+    context: &Context,
+    (model, output): (&ModelArguments, &OutputArguments),
+    report: &Report,
+    figure: Option<&Figure>,
+) -> Result<(), Failure> {
+    if let (Some(path), Some(figure)) = (&output.plot, figure) {
+        write(path, &figure.encode(FileFormat::of(path)?)?)?;
+    }
+    let Some(folder) = &output.out else { return Ok(()) };
+    fs::create_dir_all(folder).map_err(|e| Failure::Write { path: folder.display().to_string(), cause: e.to_string() })?;
+    for kind in output::KINDS.iter().filter(|k| k.name != "table") {
+        let path = folder.join(format!("results.{}", kind.name));
+        let text = written(kind, report, &Options::default(), &path.display().to_string())?;
+        write(&path, &text)?;
+    }
+    if let Some(figure) = figure {
+        for (name, format) in [("figure.svg", FileFormat::Svg), ("figure.png", FileFormat::Png)] {
+            write(&folder.join(name), &figure.encode(format)?)?;
+        }
+    }
+    write(&folder.join("run.json"), format!("{:#}\n", inputs(context, report, model)).as_bytes())
+}
+
+/// Inputs with hashes, version and statistics.
+fn inputs(context: &Context, report: &Report, model: &ModelArguments) -> serde_json::Value {
+    let files = Source::find(&model.model).map(|source| {
+        let mut names = vec![source.file.clone()];
+        let text = source.text(&source.file).unwrap_or_default().into_owned();
+        names.extend(text.lines().filter_map(|l| l.strip_prefix("urdf:")).map(|u| u.trim().to_owned()));
+        names
+            .into_iter()
+            .map(|name| json!({ "file": name, "fnv1a": hash(source.text(&name).unwrap_or_default().as_bytes()) }))
+            .collect::<Vec<_>>()
+    });
+    let iterations: usize = report.points.iter().map(|p| p.iterations).sum();
+    json!({
+        "fastbike": env!("CARGO_PKG_VERSION"),
+        "arguments": context.arguments,
+        "model": model.model,
+        "set": model.set,
+        "inputs": files.unwrap_or_default(),
+        "statistics": { "points": report.points.len(), "iterations": iterations },
+        "warnings": report.warnings,
+    })
+}
+
+/// FNV-1a, 64 bit: tells whether two inputs are the same, nothing more.
+fn hash(bytes: &[u8]) -> String {
+    let h = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3));
+    format!("{h:016x}")
+}
