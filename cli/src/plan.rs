@@ -8,10 +8,11 @@ use crate::arguments::{argument, sweep, unknown_name};
 use analyses::trim::{Role, Trim};
 use clap::Args;
 use mbody::description::finding::Finding;
-use mbody::description::quantity::Dimensioned;
 use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Curvature, Length, Number, Speed, Torque};
+use mbody::description::quantity::{Dimension, Dimensioned, QuantityError, parse_quantity};
 use mbody::dynamics::System;
 use problem::{Plant, UnknownKind};
+use std::f64::consts::FRAC_PI_2;
 
 /// Options of a steady state.
 #[derive(Clone, Debug, Default, Args)]
@@ -131,6 +132,15 @@ impl TrimArguments {
             (Turn::SteerTorque, prescribed::<Torque>("steer-torque", "steer_torque", &self.steer_torque)?),
         ];
         let turn = turns.into_iter().find_map(|(turn, p)| p.map(|p| (turn, p)));
+        if let Some((Turn::Lean, p)) = &turn
+            && let Some(flat) = p.values.iter().find(|v| v.abs() >= FRAC_PI_2)
+        {
+            let text = self.lean.as_deref().unwrap_or_default();
+            let message = format!("a lean of {flat} rad is out of range: it must be between -90 deg and 90 deg");
+            return Err(argument("lean", text, "out_of_range", message)
+                .with_hint("angles without unit are in radians; write `35deg`")
+                .into());
+        }
         let speed = prescribed::<Speed>("speed", "speed", &self.speed)?;
         if let Some(s) = &speed
             && let Some(slow) = s.values.iter().find(|&&v| v <= 0.0)
@@ -173,10 +183,17 @@ impl TrimArguments {
                 Err(_) => Err(Failure::from(argument("free", s, "bad_number", format!("the guess `{guess}` is not a number")))),
             },
         };
+        let acceleration = prescribed::<Acceleration>("acceleration", "acceleration", &self.acceleration)?;
+        let counts = [speed.as_ref(), turn.as_ref().map(|t| &t.1), acceleration.as_ref()].map(|p| p.map_or(1.0, |p| p.values.len() as f64));
+        let points: f64 = counts.iter().product();
+        if points > MOST_POINTS {
+            let message = format!("the sweeps make {points:.0} points together; at most {MOST_POINTS:.0} are accepted");
+            return Err(Finding::error("too_many_points", message).with_hint("take larger steps").into());
+        }
         Ok(Request {
             speed,
             turn,
-            acceleration: prescribed::<Acceleration>("acceleration", "acceleration", &self.acceleration)?,
+            acceleration,
             front_brake_share,
             top_speed: self.top_speed,
             given: self.given.iter().map(split).collect::<Result<_, _>>()?,
@@ -184,6 +201,9 @@ impl TrimArguments {
         })
     }
 }
+
+/// Points of a grid; more would fill the memory before the first of them is reached.
+const MOST_POINTS: f64 = 1e6;
 
 /// First guess of the heave at rest, m: tires that merely touch the road carry nothing, and a vehicle that they do not carry would
 /// find its balance on one wheel.
@@ -283,6 +303,10 @@ impl Request {
         let mut largest_steps = Vec::new();
         if self.top_speed {
             trim.free(&v, speed)?;
+            if trim.variables().find("engine.throttle").is_none() {
+                let finding = Finding::error("missing_engine", "this model has no signal `engine.throttle`, so it has no top speed");
+                return Err(finding.with_hint("a top speed needs an element `engine` of the kind `engine` with a torque map").into());
+            }
             trim.demand("engine.throttle", 1.0, 1.0)?;
             largest_steps.push(1.0);
         } else {
@@ -364,10 +388,18 @@ impl Request {
     /// A value with a unit, or a formula of signals.
     fn given_formula(&self, trim: &mut Trim, name: &str, formula: &str) -> Result<(), Failure> {
         let unit = trim.variables().find(name).map(|v| trim.variables().unit(v));
-        let dimension = unit.as_deref().and_then(mbody::description::quantity::Dimension::of_unit);
-        if let Some(value) = dimension.and_then(|d| mbody::description::quantity::parse_quantity(formula, d).ok()) {
-            trim.give(name, value)?;
-            return Ok(());
+        let dimension = unit.as_deref().and_then(Dimension::of_unit);
+        match dimension.map(|d| parse_quantity(formula, d)) {
+            Some(Ok(value)) => {
+                trim.give(name, value)?;
+                return Ok(());
+            }
+            // a formula is no quantity of whatever dimension
+            Some(Err(e @ QuantityError::WrongDimension { .. })) => {
+                let finding = argument("given", &format!("{name}={formula}"), e.code(), e.to_string());
+                return Err(finding.with_hint_from(e.hint()).into());
+            }
+            _ => {}
         }
         if trim.role(name).is_none() && trim.variables().find(name).is_some() {
             trim.demand(&format!("{name} - ({formula})"), 0.0, 1.0)?;

@@ -1,6 +1,7 @@
 //! Findings as text, in color where that helps.
 
 use crate::output::Palette;
+use analyses::ExpressionError;
 use analyses::trim::TrimError;
 use mbody::description::finding::{Finding, Findings, Part, Severity};
 use std::fmt::Write;
@@ -30,7 +31,10 @@ pub fn findings(findings: &Findings, palette: Palette) -> String {
 /// Why a trim has no unique answer, as a finding with advice.
 pub fn trim(error: &TrimError) -> Finding {
     let (code, hint) = match error {
-        TrimError::UnknownSignal { .. } | TrimError::Expression(_) => ("unknown_signal", Some("`fastbike info MODEL` lists the signals")),
+        TrimError::UnknownSignal { .. } | TrimError::Expression(ExpressionError::UnknownSignal { .. }) => {
+            ("unknown_signal", Some("`fastbike info MODEL` lists the signals"))
+        }
+        TrimError::Expression(_) => ("bad_formula", Some("a formula is written like `0.4 * front_brake.torque`")),
         TrimError::OutputRole { .. } => ("wrong_role", Some("`--given SIGNAL=VALUE` makes it a condition")),
         TrimError::Tie { .. } => ("wrong_role", None),
         TrimError::Count { unknowns, equations, .. } if unknowns < equations => {

@@ -5,35 +5,38 @@ use crate::arguments::{ModelArguments, OutputArguments, unknown_name};
 use crate::library::Source;
 use crate::output::{self, Options, Report};
 use crate::plot::{Figure, FileFormat};
-use crate::steady::Steady;
+use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure};
 use mbody::description::Library;
+use mbody::dynamics::{System, TreePlant};
 use problem::Ending;
 use serde_json::json;
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     fs::write(path, bytes).map_err(|e| Failure::Write { path: path.display().to_string(), cause: e.to_string() })
 }
 
-/// A report of steady states; `show` names the signals of the table.
+/// Indices of the signals that `--show` names; asked for before anything is computed.
 ///
 /// # Errors
 /// A name that is no signal, with the nearest one.
-pub fn report(command: &str, model: &str, show: &[String], steady: Steady) -> Result<Report, Failure> {
+pub fn shown(show: &[String], system: &Arc<System>) -> Result<Vec<usize>, Failure> {
+    let signals = steady::signals(&TreePlant::new(system.clone()));
+    let index = |name: &String| {
+        let known = || signals.iter().map(|s| s.name.as_str());
+        known().position(|s| s == name).ok_or_else(|| Failure::from(unknown_name("show", name, ("signal", name), known())))
+    };
+    show.iter().map(index).collect()
+}
+
+/// A report of steady states; `shown` are the signals of the table.
+pub fn report(command: &str, model: &str, shown: Vec<usize>, steady: Steady) -> Report {
     let mut report = Report::new(command, model, steady.given, steady.signals);
-    (report.points, report.warnings) = (steady.points, steady.warnings);
-    for name in show {
-        match report.signal(name) {
-            Some(i) => report.shown.push(i),
-            None => {
-                let names = report.signals.iter().map(|s| s.name.as_str());
-                return Err(unknown_name("show", name, ("signal", name), names).into());
-            }
-        }
-    }
-    Ok(report)
+    (report.points, report.warnings, report.shown) = (steady.points, steady.warnings, shown);
+    report
 }
 
 /// Prints the report in the axes and the format asked for, then writes figure (`--plot`) and run folder (`--out`).

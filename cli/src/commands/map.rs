@@ -39,8 +39,9 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(not_two(request.swept()).into());
     }
     let loaded = model::load(&arguments.model, context)?;
+    let shown = results::shown(std::slice::from_ref(&arguments.show), &loaded.assembled.system)?;
     let steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "map")?;
-    let report = results::report("map", &loaded.name, std::slice::from_ref(&arguments.show), steady)?;
+    let report = results::report("map", &loaded.name, shown, steady);
     results::deliver(context, (&arguments.model, &arguments.output), report, |report| figure(report, &arguments.show))
 }
 

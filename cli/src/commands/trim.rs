@@ -47,11 +47,12 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(finding.with_hint("sweep something, for example `--speed 10..60:2`").into());
     }
     let loaded = model::load(&arguments.model, context)?;
+    let shown = results::shown(&arguments.show, &loaded.assembled.system)?;
     let mut steady = steady::run(&request, &loaded.assembled.system, &arguments.trim.backend, "trim")?;
     steady
         .warnings
         .extend(loaded.findings.iter().filter(|f| f.severity != mbody::description::finding::Severity::Note).map(|f| f.to_string()));
-    let mut report = results::report("trim", &loaded.name, &arguments.show, steady)?;
+    let mut report = results::report("trim", &loaded.name, shown, steady);
     for variant in &arguments.versus {
         let variant = versus(variant, &arguments, &report.signals, context)?;
         report.variants.push(variant);

@@ -80,9 +80,7 @@ pub fn assemble(file: &str, library: &dyn Library, kinds: &Kinds, overrides: &[O
 pub fn assemble_urdf(file: &str, text: &str, base: BaseDescription, gravity: f64, overrides: &[Override]) -> (Option<Assembled>, Findings) {
     let (robot, mut findings) = urdf::read(file, text);
     let Some(mut robot) = robot else { return (None, findings) };
-    for (path, value) in overrides {
-        set_tree_entry(&mut robot, path, value, &mut findings);
-    }
+    change_tree(&mut robot, &overrides.iter().collect::<Vec<_>>(), &mut findings);
     let down = Vec3::new(0.0, 0.0, -gravity);
     let model = tree::model(&robot, base, &Default::default(), down, &mut findings);
     let assembled = model.and_then(|model| match System::new(model, Vec::new()) {
@@ -118,13 +116,24 @@ fn read_tree(document: &Document, library: &dyn Library, overrides: &[&Override]
     let (robot, of_urdf) = urdf::read(name, &text);
     findings.extend(of_urdf);
     let mut robot = robot?;
-    for (path, value) in overrides {
-        set_tree_entry(&mut robot, path, value, findings);
-    }
-    if !overrides.is_empty() {
-        findings.extend(robot.check());
-    }
+    change_tree(&mut robot, overrides, findings);
     Some(robot)
+}
+
+/// Applies overrides to a tree. What is wrong only now is the fault of the overrides, not of the text.
+fn change_tree(robot: &mut Robot, overrides: &[&Override], findings: &mut Findings) {
+    if overrides.is_empty() {
+        return;
+    }
+    let before = robot.check();
+    for (path, value) in overrides {
+        set_tree_entry(robot, path, value, findings);
+    }
+    let changes = overrides.iter().map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>().join(" ");
+    for finding in robot.check().iter().filter(|f| before.iter().all(|b| b.message != f.message)) {
+        let nowhere = Finding { line: None, column: None, excerpt: None, ..finding.clone() };
+        findings.push(nowhere.in_file(&changes));
+    }
 }
 
 fn set_tree_entry(robot: &mut Robot, path: &str, text: &str, findings: &mut Findings) {
@@ -140,18 +149,20 @@ fn set_tree_entry(robot: &mut Robot, path: &str, text: &str, findings: &mut Find
 /// Overrides an entry of the description; `joint.<name>.locked` stands under `joints` there, also where the description has no
 /// word about this joint.
 fn override_entry(document: &mut Document, path: &str, text: &str, findings: &mut Findings) {
-    let mut path = path.to_owned();
+    let (mut path, mut text) = (path.to_owned(), text.to_owned());
     if let Some((joint, option)) = path.strip_prefix("joint.").and_then(|rest| rest.rsplit_once('.')) {
         let entry = format!("joints.{joint}");
-        if document.get(&entry).is_none() {
-            match Document::parse(document.file(), &serde_json::json!({ "joints": { joint: {} } }).to_string()) {
+        if document.get(&entry).is_some() {
+            path = format!("{entry}.{option}");
+        } else {
+            match Document::parse(document.file(), "joints: {}") {
                 Ok(empty) => document.merge(empty),
                 Err(errors) => findings.extend(errors),
             }
+            (path, text) = (entry, format!("{{ {option}: {text} }}"));
         }
-        path = format!("{entry}.{option}");
     }
-    if let Err(errors) = document.set(&path, text) {
+    if let Err(errors) = document.set(&path, &text) {
         findings.extend(errors);
     }
 }
