@@ -181,7 +181,8 @@ fn energy_is_accounted_for() {
     let mut agreement = Agreement::on("elements: balance of power");
     motions(|name, mut motion| {
         let system = motion.plant.system().clone();
-        let delivered = motion.plant.evaluate_at(problem::At { time: 0.0, y: &motion.y, yd: &motion.yd, u: &motion.u }).delivered_power(&system);
+        let delivered =
+            motion.plant.evaluate_at(problem::At { time: 0.0, y: &motion.y, yd: &motion.yd, u: &motion.u }).delivered_power(&system);
         let n = motion.bare.unknowns().len();
         let at = problem::At { time: 0.0, y: &motion.y, yd: &motion.yd, u: &motion.u };
         let (total, account) = motion.plant.energy_rate_at(at);

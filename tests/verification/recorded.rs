@@ -87,16 +87,14 @@ fn build(record: &Value, crossed: Option<[&str; 2]>) -> Arc<System> {
         Value::Null => MassProperties::NONE,
         l => {
             let [xx, xy, xz, yy, yz, zz]: [f64; 6] = numbers(&l["inertia"]).try_into().expect("six entries");
-            MassProperties {
-                mass: l["mass"].as_f64().expect("a mass"),
-                center: three(&l["com"]).into(),
-                inertia: [xx, yy, zz, xy, xz, yz],
-            }
+            MassProperties { mass: l["mass"].as_f64().expect("a mass"), center: three(&l["com"]).into(), inertia: [xx, yy, zz, xy, xz, yz] }
         }
     };
     let mut builder = ModelBuilder::new();
     let joints = record["joints"].as_array().expect("joints");
-    builder.weld(joints[0]["parent"].as_str().expect("a link"), BodyIndex::WORLD, Pose::identity(), MassProperties::NONE).expect("the ground");
+    builder
+        .weld(joints[0]["parent"].as_str().expect("a link"), BodyIndex::WORLD, Pose::identity(), MassProperties::NONE)
+        .expect("the ground");
     for j in joints {
         let name = |key: &str| j[key].as_str().expect("a name");
         let X = Pose::from_xyz_rpy(three(&j["xyz"]), three(&j["rpy"]));
