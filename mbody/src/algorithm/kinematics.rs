@@ -13,7 +13,7 @@ use crate::stage::{Acceleration, Position, Velocity, World};
 pub fn position<S: SystemScalar>(model: &Model, position: &mut Position<S>) {
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
         let (q, H) = (&position.q[body.q.clone()], &mut position.H[body.v.clone()]);
-        position.X_PB[i] = body.joint.place(&body.X_PF, q, H);
+        body.joint.update(&body.X_PF, q, &mut position.X_PB[i], H);
     }
 }
 
@@ -31,8 +31,7 @@ pub fn world<S: SystemScalar>(model: &Model, position: &Position<S>, world: &mut
 pub fn velocity<S: SystemScalar>(model: &Model, position: &Position<S>, velocity: &mut Velocity<S>) {
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
         let (q, v) = (&position.q[body.q.clone()], &velocity.v[body.v.clone()]);
-        let V_J = body.joint.motion(&position.H[body.v.clone()], v);
-        let c_J = body.joint.bias(q, v);
+        let (V_J, c_J) = body.joint.motion_and_bias(q, &position.H[body.v.clone()], v);
         let p = body.parent.0;
         // V × V_J vanishes for a joint on the world
         (velocity.V_WB[i], velocity.bias[i]) = if p == 0 {

@@ -6,4 +6,5 @@ pub mod derivatives;
 pub mod energy;
 pub mod jacobian;
 pub mod kinematics;
+pub mod recursive_derivatives;
 pub mod rnea;

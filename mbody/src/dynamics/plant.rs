@@ -146,10 +146,12 @@ fn sweep<S: SystemScalar>(
     e.run(&plant.system);
     let pairs = [(&e.residual, values.0, d.0), (&e.outputs, values.1, d.1)];
     for (duals, value, derivative) in pairs {
-        for (row, x) in duals.iter().enumerate() {
-            value[row] = x.value();
-            for k in 0..count {
-                derivative[(row, first + k)] = x.derivative(k);
+        for (value, x) in value.iter_mut().zip(duals) {
+            *value = x.value();
+        }
+        for k in 0..count {
+            for (entry, x) in derivative.column_mut(first + k).iter_mut().zip(duals) {
+                *entry = x.derivative(k);
             }
         }
     }

@@ -50,6 +50,9 @@ impl JointLaw for Free {
             H[k + 3] = Twist::new(X.columns[k], Vec3::zero());
         }
     }
+    fn subspace_is_constant(&self) -> bool {
+        true
+    }
     fn bias<S: Real>(&self, _q: &[S], _v: &[S]) -> Twist<S> {
         Twist::zero()
     }

@@ -50,9 +50,26 @@ pub trait JointLaw: fmt::Debug + Send + Sync + 'static {
             H[k] = from_jet(self, q, &unit[..H.len()]).0;
         }
     }
+    /// Whether `H` is the same for all q, so that it need not be written again.
+    fn subspace_is_constant(&self) -> bool {
+        false
+    }
     /// `Ḣ v`.
     fn bias<S: Real>(&self, q: &[S], v: &[S]) -> Twist<S> {
         from_jet(self, q, v).1
+    }
+    /// `H v` and `Ḣ v`; override where they share work.
+    #[inline(always)]
+    fn motion_and_bias<S: Real>(&self, q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>) {
+        (self.motion(H, v), self.bias(q, v))
+    }
+    /// `X_PF X_FM(q)` and, where it depends on q, `H(q)`; override where they share work.
+    #[inline(always)]
+    fn update<S: Real>(&self, X_PF: &Pose<f64>, q: &[S], H: &mut [Twist<S>]) -> Pose<S> {
+        if !self.subspace_is_constant() {
+            self.subspace(q, H);
+        }
+        self.placed(X_PF, q)
     }
     /// `H v`; override where most of H is zero.
     #[inline(always)]
@@ -109,9 +126,11 @@ pub fn from_jet<S: Real, J: JointLaw + ?Sized>(joint: &J, q: &[S], v: &[S]) -> (
 /// A joint as the model stores it: object-safe for one scalar.
 trait JointTwin<S>: Send + Sync {
     fn place(&self, X_PF: &Pose<f64>, q: &[S], H: &mut [Twist<S>]) -> Pose<S>;
+    fn update(&self, X_PF: &Pose<f64>, q: &[S], X_PM: &mut Pose<S>, H: &mut [Twist<S>]);
     fn rates(&self, q: &[S], v: &[S], rates: &mut [S]);
     fn bias(&self, q: &[S], v: &[S]) -> Twist<S>;
     fn motion(&self, H: &[Twist<S>], v: &[S]) -> Twist<S>;
+    fn motion_and_bias(&self, q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>);
     fn effort(&self, H: &[Twist<S>], F: Wrench<S>, tau: &mut [S]);
 }
 
@@ -119,6 +138,9 @@ impl<J: JointLaw, S: SystemScalar> JointTwin<S> for J {
     fn place(&self, X_PF: &Pose<f64>, q: &[S], H: &mut [Twist<S>]) -> Pose<S> {
         self.subspace(q, H);
         self.placed(X_PF, q)
+    }
+    fn update(&self, X_PF: &Pose<f64>, q: &[S], X_PM: &mut Pose<S>, H: &mut [Twist<S>]) {
+        *X_PM = JointLaw::update(self, X_PF, q, H);
     }
     fn rates(&self, q: &[S], v: &[S], rates: &mut [S]) {
         JointLaw::rates(self, q, v, rates);
@@ -128,6 +150,9 @@ impl<J: JointLaw, S: SystemScalar> JointTwin<S> for J {
     }
     fn motion(&self, H: &[Twist<S>], v: &[S]) -> Twist<S> {
         JointLaw::motion(self, H, v)
+    }
+    fn motion_and_bias(&self, q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>) {
+        JointLaw::motion_and_bias(self, q, H, v)
     }
     fn effort(&self, H: &[Twist<S>], F: Wrench<S>, tau: &mut [S]) {
         JointLaw::effort(self, H, F, tau);
@@ -155,6 +180,7 @@ pub struct Joint {
     velocities: &'static [Coordinate],
     reference: Vec<f64>,
     rotation_axis: Option<Vec3<f64>>,
+    subspace_is_constant: bool,
     text: String,
 }
 
@@ -169,12 +195,19 @@ impl Joint {
     pub fn new<J: JointLaw>(law: J) -> Self {
         let (coordinates, velocities, reference) = (law.coordinates(), law.velocities(), law.reference());
         let (rotation_axis, text) = (law.rotation_axis(), format!("{law:?}"));
-        Self { twins: PerScalar::new(&Maker(Arc::new(law))), coordinates, velocities, reference, rotation_axis, text }
+        let subspace_is_constant = law.subspace_is_constant() || velocities.is_empty();
+        let twins = PerScalar::new(&Maker(Arc::new(law)));
+        Self { twins, coordinates, velocities, reference, rotation_axis, subspace_is_constant, text }
     }
 
     /// Unit axis, fixed in F and in M, about which the joint turns, where it only turns about one.
     pub fn rotation_axis(&self) -> Option<Vec3<f64>> {
         self.rotation_axis
+    }
+
+    /// Whether `H` is the same for all q.
+    pub fn subspace_is_constant(&self) -> bool {
+        self.subspace_is_constant
     }
 
     /// Number of coordinates.
@@ -208,6 +241,13 @@ impl Joint {
         S::pick(&self.twins).place(X_PF, q, H)
     }
 
+    /// As [`Joint::place`], with the pose written in place and `H` only where it depends on q: for a workspace, whose `H` was
+    /// filled when it was made.
+    #[inline]
+    pub fn update<S: SystemScalar>(&self, X_PF: &Pose<f64>, q: &[S], X_PM: &mut Pose<S>, H: &mut [Twist<S>]) {
+        S::pick(&self.twins).update(X_PF, q, X_PM, H);
+    }
+
     /// `q̇ = N(q) v`.
     #[inline]
     pub fn rates<S: SystemScalar>(&self, q: &[S], v: &[S], rates: &mut [S]) {
@@ -224,6 +264,12 @@ impl Joint {
     #[inline]
     pub fn motion<S: SystemScalar>(&self, H: &[Twist<S>], v: &[S]) -> Twist<S> {
         S::pick(&self.twins).motion(H, v)
+    }
+
+    /// `H v` and `Ḣ v`.
+    #[inline]
+    pub fn motion_and_bias<S: SystemScalar>(&self, q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>) {
+        S::pick(&self.twins).motion_and_bias(q, H, v)
     }
 
     /// `Hᵀ F`.

@@ -71,6 +71,9 @@ impl JointLaw for Planar {
         H[1] = Twist::new(Vec3::zero(), Vec3::from_f64(self.e2));
         H[2] = Twist::new(Vec3::from_f64(self.axis), Vec3::zero());
     }
+    fn subspace_is_constant(&self) -> bool {
+        true
+    }
     fn bias<S: Real>(&self, _q: &[S], _v: &[S]) -> Twist<S> {
         Twist::zero()
     }

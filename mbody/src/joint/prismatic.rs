@@ -32,6 +32,9 @@ impl JointLaw for Prismatic {
     fn subspace<S: Real>(&self, _q: &[S], H: &mut [Twist<S>]) {
         H[0] = Twist::new(Vec3::zero(), Vec3::from_f64(self.axis));
     }
+    fn subspace_is_constant(&self) -> bool {
+        true
+    }
     #[inline(always)]
     fn bias<S: Real>(&self, _q: &[S], _v: &[S]) -> Twist<S> {
         Twist::zero()

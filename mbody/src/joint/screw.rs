@@ -31,6 +31,9 @@ impl JointLaw for Screw {
     fn subspace<S: Real>(&self, _q: &[S], H: &mut [Twist<S>]) {
         H[0] = Twist::new(Vec3::from_f64(self.axis), Vec3::from_f64(self.axis * self.pitch));
     }
+    fn subspace_is_constant(&self) -> bool {
+        true
+    }
     fn bias<S: Real>(&self, _q: &[S], _v: &[S]) -> Twist<S> {
         Twist::zero()
     }

@@ -52,6 +52,9 @@ impl JointLaw for Spherical {
             H[k] = Twist::new(X.columns[k], Vec3::zero());
         }
     }
+    fn subspace_is_constant(&self) -> bool {
+        true
+    }
     fn bias<S: Real>(&self, _q: &[S], _v: &[S]) -> Twist<S> {
         Twist::zero()
     }

@@ -10,7 +10,7 @@
 
 use super::{Coordinate, JointLaw};
 use crate::scalar::Real;
-use crate::spatial::{Pose, Rotation, Twist, Vec3};
+use crate::spatial::{Pose, Rotation, Twist, Vec3, Wrench};
 
 /// `planar ∘ heave ∘ roll ∘ pitch`.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +23,19 @@ impl VehicleBase {
         let (sr, cr) = roll.sin_cos();
         let (sp, cp) = pitch.sin_cos();
         Rotation::from_columns(Vec3::new(cp, sr * sp, -(cr * sp)), Vec3::new(S::zero(), cr, sr), Vec3::new(sp, -(sr * cp), cr * cp))
+    }
+
+    /// Columns of `H`: the axes of the yawed frame, written in the body, are the rows of the tilt.
+    #[inline(always)]
+    fn columns<S: Real>(tilt: &Rotation<S>, H: &mut [Twist<S>]) {
+        let [x, y, z] = tilt.inverse().columns;
+        let o = Vec3::zero();
+        H[0] = Twist::new(o, x);
+        H[1] = Twist::new(o, y);
+        H[2] = Twist::new(z, o);
+        H[3] = Twist::new(o, z);
+        H[4] = Twist::new(x, o);
+        H[5] = Twist::new(Vec3::new(S::zero(), S::one(), S::zero()), o);
     }
 }
 
@@ -67,24 +80,39 @@ impl JointLaw for VehicleBase {
     }
     #[inline(always)]
     fn subspace<S: Real>(&self, q: &[S], H: &mut [Twist<S>]) {
-        // columns of A are the axes of the yawed frame in the body
-        let A = Self::tilt(q[4], q[5]).inverse();
-        let [x, y, z] = A.columns;
-        let o = Vec3::zero();
-        H[0] = Twist::new(o, x);
-        H[1] = Twist::new(o, y);
-        H[2] = Twist::new(z, o);
-        H[3] = Twist::new(o, z);
-        H[4] = Twist::new(x, o);
-        H[5] = Twist::new(Vec3::new(S::zero(), S::one(), S::zero()), o);
+        Self::columns(&Self::tilt(q[4], q[5]), H);
+    }
+    #[inline(always)]
+    fn update<S: Real>(&self, X_PF: &Pose<f64>, q: &[S], H: &mut [Twist<S>]) -> Pose<S> {
+        let tilt = Self::tilt(q[4], q[5]);
+        Self::columns(&tilt, H);
+        X_PF.compose(&Pose::new(Rotation::about_z(q[2]) * tilt, Vec3::new(q[0], q[1], q[3])))
+    }
+    #[inline(always)]
+    fn motion<S: Real>(&self, H: &[Twist<S>], v: &[S]) -> Twist<S> {
+        let (x, y, z) = (H[0].v, H[1].v, H[2].w);
+        let w = x.scaled(v[4]) + z.scaled(v[2]);
+        Twist::new(Vec3::new(w.x, w.y + v[5], w.z), x.scaled(v[0]) + y.scaled(v[1]) + z.scaled(v[3]))
     }
     #[inline(always)]
     fn bias<S: Real>(&self, q: &[S], v: &[S]) -> Twist<S> {
-        let [x, y, z] = Self::tilt(q[4], q[5]).inverse().columns;
-        let rolling = x.scaled(v[4]);
+        let mut H = [Twist::zero(); 6];
+        self.subspace(q, &mut H);
+        self.motion_and_bias(q, &H, v).1
+    }
+    #[inline(always)]
+    fn motion_and_bias<S: Real>(&self, _q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>) {
+        let V = self.motion(H, v);
+        // in the yawed frame the body turns with φ̇ x + θ̇ y; θ̇ y itself is fixed in the body
+        let rolling = H[0].v.scaled(v[4]);
         let omega = Vec3::new(rolling.x, rolling.y + v[5], rolling.z);
-        let w = rolling + z.scaled(v[2]);
-        let p = x.scaled(v[0]) + y.scaled(v[1]) + z.scaled(v[3]);
-        Twist::new(-omega.cross(w), -omega.cross(p))
+        let carried = Vec3::new(V.w.x, V.w.y - v[5], V.w.z);
+        (V, Twist::new(-omega.cross(carried), -omega.cross(V.v)))
+    }
+    #[inline(always)]
+    fn effort<S: Real>(&self, H: &[Twist<S>], F: Wrench<S>, tau: &mut [S]) {
+        let (x, y, z) = (H[0].v, H[1].v, H[2].w);
+        (tau[0], tau[1], tau[2]) = (x.dot(F.f), y.dot(F.f), z.dot(F.n));
+        (tau[3], tau[4], tau[5]) = (z.dot(F.f), x.dot(F.n), F.n.y);
     }
 }

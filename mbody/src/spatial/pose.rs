@@ -62,6 +62,13 @@ impl<S: Real> Pose<S> {
         Twist::new(self.R.inverse_times(V_A.w), self.R.inverse_times(V_A.v + V_A.w.cross(self.p)))
     }
 
+    /// The twist V, written in B about Bo, written in A about Ao (same motion).
+    #[inline(always)]
+    pub fn twist_to_parent(&self, V_B: Twist<S>) -> Twist<S> {
+        let w = self.R * V_B.w;
+        Twist::new(w, self.R * V_B.v + self.p.cross(w))
+    }
+
     /// The wrench F, written in B about Bo, written in A about Ao: `ᴮX_Aᵀ F`.
     #[inline(always)]
     pub fn wrench_to_parent(&self, F_B: Wrench<S>) -> Wrench<S> {

@@ -4,7 +4,7 @@
 
 use crate::algorithm::kinematics;
 use crate::model::Model;
-use crate::scalar::{Family, Make, Real, SystemScalar};
+use crate::scalar::{Family, Make, SystemScalar};
 use crate::spatial::{ArticulatedInertia, Inertia, Pose, Twist, Wrench};
 
 /// What follows from the coordinates.
@@ -76,13 +76,20 @@ pub struct Workspace<S> {
     pub D: Vec<[[S; 6]; 6]>,
 }
 
-impl<S: Real> Workspace<S> {
+impl<S: SystemScalar> Workspace<S> {
     /// Work arrays for a model.
     pub fn new(model: &Model) -> Self {
         let n = model.bodies.len();
         let (nq, nv) = (model.layout.tree_nq, model.layout.tree_nv);
+        let mut position = Position { q: vec![S::zero(); nq], X_PB: vec![Pose::identity(); n], H: vec![Twist::zero(); nv] };
+        // subspaces that do not depend on q are written here, once and for all
+        for (body, X_PB) in model.bodies.iter().zip(&mut position.X_PB).skip(1) {
+            let q = &mut position.q[body.q.clone()];
+            q.iter_mut().zip(body.joint.reference()).for_each(|(q, &reference)| *q = S::from_f64(reference));
+            *X_PB = body.joint.place(&body.X_PF, q, &mut position.H[body.v.clone()]);
+        }
         Self {
-            position: Position { q: vec![S::zero(); nq], X_PB: vec![Pose::identity(); n], H: vec![Twist::zero(); nv] },
+            position,
             world: World { X_WB: vec![Pose::identity(); n] },
             velocity: Velocity { v: vec![S::zero(); nv], V_WB: vec![Twist::zero(); n], bias: vec![Twist::zero(); n] },
             acceleration: Acceleration { vd: vec![S::zero(); nv], A_WB: vec![Twist::zero(); n] },

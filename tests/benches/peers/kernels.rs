@@ -2,6 +2,7 @@
 
 use crate::clock::Clock;
 use mbody::algorithm::derivatives::{Motion, rnea_derivatives};
+use mbody::algorithm::recursive_derivatives::RecursiveDerivatives;
 use mbody::algorithm::{aba::aba, crba::crba, kinematics, rnea::rnea};
 use mbody::assembly::{BaseDescription, assemble_urdf};
 use mbody::dynamics::System;
@@ -145,9 +146,15 @@ pub fn run(clock: &mut Clock) {
             crba(model, &w.position, &mut w.composite, &mut M);
             black_box(&M);
         });
+        let mut recursion = RecursiveDerivatives::new(model).expect("constant subspaces");
         let mut spaces = PerScalar::<Workspaces>::new(model);
         let (mut dq, mut dv) = (Matrix::zeros(nv, nv), Matrix::zeros(nv, nv));
         clock.case(&format!("drnea {}", case.name), 1, |round| {
+            let s = at(round);
+            recursion.run(model, Motion { q: &s.q, v: &s.v, vd: &s.vd }, &mut dq, &mut dv);
+            black_box((&dq, &dv));
+        });
+        clock.case(&format!("drnea {}, dual numbers", case.name), 1, |round| {
             let s = at(round);
             rnea_derivatives(model, Motion { q: &s.q, v: &s.v, vd: &s.vd }, &mut spaces, &mut dq, &mut dv);
             black_box((&dq, &dv));
