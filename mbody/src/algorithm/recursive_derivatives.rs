@@ -117,7 +117,7 @@ impl RecursiveDerivatives {
         carried[0] = Carried { A: w.acceleration.A_WB[0], ..Carried::default() };
         for (i, body) in model.bodies.iter().enumerate().skip(1) {
             let mut X = w.world.X_WB[i];
-            X.p = X.p - origin;
+            X.p -= origin;
             let Carried { V: V_P, A: A_P, .. } = carried[body.parent.0];
             let (V, A) = (X.twist_to_parent(w.velocity.V_WB[i]), X.twist_to_parent(w.acceleration.A_WB[i]));
             let inertia = body.inertia.in_parent(&X);
