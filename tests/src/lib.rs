@@ -3,7 +3,7 @@
 //! - [`reference`](mod@reference): published numbers as files;
 //! - [`agreement`]: comparisons whose tolerances have reasons, and the worst deviation of each;
 //! - [`vehicle`]: bundled vehicles, their steady states by the names of their signals;
-//! - [`evidence`]: rows that the tests declare, and the table in `README.md` that is made of them.
+//! - [`mod@evidence`]: rows that the tests declare, and the table in `README.md` that is made of them.
 
 #![allow(non_snake_case)]
 
