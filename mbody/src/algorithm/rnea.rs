@@ -10,7 +10,7 @@ use crate::stage::{Acceleration, Position, Velocity};
 
 /// Writes `τ` (tree, N or N m) that the joints must supply for the motion in the three stages under the applied wrenches.
 ///
-/// `applied` and `transmitted` are [bodies] wrenches in body axes about the body origin; `transmitted` receives what each
+/// `applied` and `transmitted` are \[bodies\] wrenches in body axes about the body origin; `transmitted` receives what each
 /// joint exerts on its body. O(n), allocates nothing.
 #[inline]
 pub fn rnea<S: SystemScalar>(

@@ -134,7 +134,7 @@ pub struct HeightField {
 }
 
 impl HeightField {
-    /// The surface through the heights `heights[row * x.len() + column]` above (x[column], y[row]).
+    /// The surface through the heights `heights[row * x.len() + column]` above `(x[column], y[row])`.
     ///
     /// Contact is sought in two passes; see [`Self::with_passes`].
     ///

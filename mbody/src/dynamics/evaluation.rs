@@ -13,15 +13,15 @@ use crate::stage::Workspace;
 pub struct Evaluation<S> {
     /// Time, s.
     pub time: f64,
-    /// [unknowns] `(q, v, s)`.
+    /// \[unknowns\] `(q, v, s)`.
     pub y: Vec<S>,
-    /// [unknowns] rates.
+    /// \[unknowns\] rates.
     pub yd: Vec<S>,
-    /// [inputs].
+    /// \[inputs\].
     pub u: Vec<S>,
-    /// [equations] residual.
+    /// \[equations\] residual.
     pub residual: Vec<S>,
-    /// [outputs].
+    /// \[outputs\].
     pub outputs: Vec<S>,
     /// Work arrays of the tree.
     pub tree: Workspace<S>,

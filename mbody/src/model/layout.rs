@@ -31,9 +31,9 @@ pub struct Layout {
     pub tree_nq: usize,
     /// Number of tree velocities.
     pub tree_nv: usize,
-    /// [nq] tree coordinate of each independent coordinate.
+    /// \[nq\] tree coordinate of each independent coordinate.
     pub independent_q: Vec<usize>,
-    /// [nv] tree velocity of each independent velocity.
+    /// \[nv\] tree velocity of each independent velocity.
     pub independent_v: Vec<usize>,
     /// Followers, each after its leader.
     pub followers: Vec<Follower>,

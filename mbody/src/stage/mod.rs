@@ -12,7 +12,7 @@ use crate::spatial::{ArticulatedInertia, Inertia, Pose, Twist, Wrench};
 pub struct Position<S> {
     /// [tree nq] tree coordinates.
     pub q: Vec<S>,
-    /// [bodies] pose of each body in its parent.
+    /// \[bodies\] pose of each body in its parent.
     pub X_PB: Vec<Pose<S>>,
     /// [tree nv] motion subspace of each joint: columns, in body axes.
     pub H: Vec<Twist<S>>,
@@ -21,7 +21,7 @@ pub struct Position<S> {
 /// Poses of all bodies in the world; needed by everything outside the tree recursion.
 #[derive(Clone, Debug)]
 pub struct World<S> {
-    /// [bodies] pose of each body in the world.
+    /// \[bodies\] pose of each body in the world.
     pub X_WB: Vec<Pose<S>>,
 }
 
@@ -30,9 +30,9 @@ pub struct World<S> {
 pub struct Velocity<S> {
     /// [tree nv] tree velocities.
     pub v: Vec<S>,
-    /// [bodies] twist of each body in the world.
+    /// \[bodies\] twist of each body in the world.
     pub V_WB: Vec<Twist<S>>,
-    /// [bodies] velocity-dependent part of each joint's acceleration: `Ḣ v + V × H v`.
+    /// \[bodies\] velocity-dependent part of each joint's acceleration: `Ḣ v + V × H v`.
     pub bias: Vec<Twist<S>>,
 }
 
@@ -41,7 +41,7 @@ pub struct Velocity<S> {
 pub struct Acceleration<S> {
     /// [tree nv] tree accelerations.
     pub vd: Vec<S>,
-    /// [bodies] spatial acceleration of each body relative to free fall (the world accelerates with −g).
+    /// \[bodies\] spatial acceleration of each body relative to free fall (the world accelerates with −g).
     pub A_WB: Vec<Twist<S>>,
 }
 
@@ -56,23 +56,23 @@ pub struct Workspace<S> {
     pub velocity: Velocity<S>,
     /// Stage 3.
     pub acceleration: Acceleration<S>,
-    /// [bodies] applied wrench on each body, in body axes about the body origin.
+    /// \[bodies\] applied wrench on each body, in body axes about the body origin.
     pub applied: Vec<Wrench<S>>,
-    /// [bodies] wrench transmitted by each joint onto its body, in body axes about the body origin.
+    /// \[bodies\] wrench transmitted by each joint onto its body, in body axes about the body origin.
     pub transmitted: Vec<Wrench<S>>,
     /// [tree nv] generalized forces.
     pub tau: Vec<S>,
-    /// [bodies] composite inertias.
+    /// \[bodies\] composite inertias.
     pub composite: Vec<Inertia<S>>,
-    /// [bodies] articulated inertias.
+    /// \[bodies\] articulated inertias.
     pub articulated: Vec<ArticulatedInertia<S>>,
-    /// [bodies] bias wrenches of the articulated bodies.
+    /// \[bodies\] bias wrenches of the articulated bodies.
     pub articulated_bias: Vec<Wrench<S>>,
     /// [tree nv] `U = Iᴬ H`.
     pub U: Vec<Wrench<S>>,
     /// [tree nv] `u = τ − Hᵀ pᴬ`.
     pub u: Vec<S>,
-    /// [bodies] Cholesky factors of `D = Hᵀ U`, packed 6 × 6.
+    /// \[bodies\] Cholesky factors of `D = Hᵀ U`, packed 6 × 6.
     pub D: Vec<[[S; 6]; 6]>,
 }
 
