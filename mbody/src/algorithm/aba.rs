@@ -6,10 +6,10 @@
 
 use crate::model::Model;
 use crate::scalar::SystemScalar;
-use crate::spatial::{ArticulatedInertia, Twist, Vec3};
+use crate::spatial::{ArticulatedInertia, Twist, Vec3, Wrench};
 use crate::stage::Workspace;
 
-/// Factorizes the leading n × n block in place: lower triangle L with `D = L Lᵀ`.
+/// Factorizes the leading n × n block in place: lower triangle L with `D = L Lᵀ`, its diagonal as reciprocals.
 #[inline]
 fn cholesky<S: SystemScalar>(D: &mut [[S; 6]; 6], n: usize) {
     for j in 0..n {
@@ -17,9 +17,8 @@ fn cholesky<S: SystemScalar>(D: &mut [[S; 6]; 6], n: usize) {
         for k in 0..j {
             d -= D[j][k] * D[j][k];
         }
-        let root = d.sqrt();
-        D[j][j] = root;
-        let inverse = root.recip();
+        let inverse = d.sqrt().recip();
+        D[j][j] = inverse;
         for i in j + 1..n {
             let mut s = D[i][j];
             for k in 0..j {
@@ -37,13 +36,13 @@ fn solve<S: SystemScalar>(L: &[[S; 6]; 6], b: &mut [S], n: usize) {
         for k in 0..i {
             b[i] -= L[i][k] * b[k];
         }
-        b[i] /= L[i][i];
+        b[i] *= L[i][i];
     }
     for i in (0..n).rev() {
         for k in i + 1..n {
             b[i] -= L[k][i] * b[k];
         }
-        b[i] /= L[i][i];
+        b[i] *= L[i][i];
     }
 }
 
@@ -70,8 +69,9 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
                 D[a][b] = w.position.H[first + a].dot(w.U[first + b]);
             }
         }
-        if n > 1 {
-            cholesky(D, n);
+        match n {
+            1 => D[0][0] = D[0][0].recip(),
+            _ => cholesky(D, n),
         }
         let p = body.parent.0;
         if p == 0 {
@@ -81,7 +81,7 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
         let mut Ia = w.articulated[i];
         let mut pa = w.articulated_bias[i];
         if n == 1 {
-            let inverse = D[0][0].recip();
+            let inverse = D[0][0];
             Ia.subtract_outer(w.U[first], inverse);
             pa += Ia.times(c) + w.U[first].scaled(inverse * w.u[first]);
         } else {
@@ -89,13 +89,13 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
             let mut x = [S::zero(); 6];
             x[..n].copy_from_slice(&w.u[body.v.clone()]);
             solve(D, &mut x, n);
-            let mut Y = [w.U.first().copied().unwrap_or_default(); 6];
+            let mut Y = [Wrench::zero(); 6];
             for a in 0..n {
                 let mut y = w.U[first + a];
                 for b in 0..a {
                     y -= Y[b].scaled(D[a][b]);
                 }
-                Y[a] = y.scaled(D[a][a].recip());
+                Y[a] = y.scaled(D[a][a]);
                 Ia.subtract_outer(Y[a], S::one());
             }
             pa += Ia.times(c);
@@ -117,7 +117,7 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
             x[a] = w.u[first + a] - A.dot(w.U[first + a]);
         }
         if n == 1 {
-            x[0] /= w.D[i][0][0];
+            x[0] *= w.D[i][0][0];
         } else {
             solve(&w.D[i], &mut x, n);
         }

@@ -72,7 +72,7 @@ pub struct Workspace<S> {
     pub U: Vec<Wrench<S>>,
     /// [tree nv] `u = τ − Hᵀ pᴬ`.
     pub u: Vec<S>,
-    /// \[bodies\] Cholesky factors of `D = Hᵀ U`, packed 6 × 6.
+    /// \[bodies\] Cholesky factors of `D = Hᵀ U`, packed 6 × 6, with reciprocal diagonals; 1/D for a joint with one velocity.
     pub D: Vec<[[S; 6]; 6]>,
 }
 
