@@ -236,13 +236,17 @@ fn recursive_derivatives_agree() {
     states(|m, s, what| {
         let model = m.model();
         let Some(mut recursion) = RecursiveDerivatives::new(model) else { return };
+        // a motion is given in tree coordinates, the recorded states of followers are independent ones
+        if !model.layout().is_identity() {
+            return;
+        }
         compared += 1;
         let n = model.layout().tree_nv;
         let zeros = || Matrix::zeros(n, n);
         let (mut dq, mut dv, mut dual_q, mut dual_v) = (zeros(), zeros(), zeros(), zeros());
         let square = |matrix: &Matrix| DMatrix::from_column_slice(n, n, matrix.as_slice());
         let at = Motion { q: &s.q, v: &s.v, vd: &s.vd };
-        if let Some((by_q, by_v)) = s.derivatives.as_ref().filter(|_| model.layout().is_identity()) {
+        if let Some((by_q, by_v)) = s.derivatives.as_ref() {
             recursion.run(model, at, &mut dq, &mut dv);
             for (name, found, expected) in [("by q", &dq, by_q), ("by v", &dv, by_v)] {
                 agreement.all_near(&format!("{what}: {name}"), &m.square_in_order(&square(found)), expected, &TWO_CODES);
