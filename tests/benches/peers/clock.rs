@@ -3,6 +3,7 @@
 use cpu_time::ThreadTime;
 use criterion::Criterion;
 use std::hint::black_box;
+use std::path::Path;
 use std::time::Duration;
 
 /// The least time per call of one case.
@@ -28,6 +29,8 @@ impl Clock {
             .warm_up_time(Duration::from_millis(200))
             .measurement_time(Duration::from_millis(1500))
             .without_plots()
+            // beside the other results of cargo, wherever the bench is started
+            .output_directory(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/criterion"))
             .configure_from_args();
         Self { criterion, measured: Vec::new() }
     }
