@@ -7,14 +7,20 @@
 
 mod algebraic;
 mod error;
+mod integration;
 mod matrix;
+mod motion;
 mod outcome;
 mod plant;
 mod signal;
 
 pub use algebraic::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound};
 pub use error::EvalError;
+pub use integration::{
+    AlgebraicErrors, DaeMethod, DaeProblem, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink,
+};
 pub use matrix::Matrix;
+pub use motion::{Explicit, Integrable, Off, Projection, ProjectionError};
 pub use outcome::Ending;
 pub use plant::{At, Dae, Differentiable, Equation, EquationKind, Input, Limit, Limits, Outputs, Plant, Seeds, Side, Unknown, UnknownKind};
 pub use signal::Signal;

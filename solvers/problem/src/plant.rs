@@ -45,8 +45,12 @@ pub enum EquationKind {
     Dynamic,
     /// Row of an element's own state, in the order of the states.
     Element,
-    /// Constraint row.
+    /// Constraint on coordinates: a loop closes, a body touches a surface.
     Constraint,
+    /// Constraint on velocities: the rate of a constraint on coordinates, or rolling without slip.
+    VelocityConstraint,
+    /// Constraint on accelerations: the rate of a constraint on velocities.
+    AccelerationConstraint,
 }
 
 /// One row of `F`.
