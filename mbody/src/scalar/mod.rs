@@ -2,6 +2,7 @@
 //!
 //! Laws are written over [`Real`]; the assembled system evaluates them over the closed list of [`SystemScalar`]s.
 
+mod dual;
 mod jet;
 mod lanes;
 mod per_scalar;
@@ -9,6 +10,7 @@ mod real;
 pub mod smooth;
 pub mod spline;
 
+pub use dual::Dual;
 pub use jet::Jet;
 pub use lanes::Lanes;
 pub use per_scalar::{Family, Make, PerScalar, SystemScalar};
