@@ -34,6 +34,14 @@ impl<S: Real, const N: usize> Dual<S, N> {
     fn chain(self, f: S, slope: S) -> Self {
         Self { x: f, d: self.d.map(|d| slope * d) }
     }
+
+    /// Quotient, by differentiating x = q b.
+    #[inline(always)]
+    fn over(self, b: Self) -> Self {
+        let per = b.x.recip();
+        let x = self.x * per;
+        Self { x, d: from_fn(|i| (self.d[i] - x * b.d[i]) * per) }
+    }
 }
 
 impl<S: Real, const N: usize> Neg for Dual<S, N> {
@@ -72,9 +80,7 @@ impl<S: Real, const N: usize> Div for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, b: Self) -> Self {
-        let per = b.x.recip();
-        let x = self.x * per;
-        Self { x, d: from_fn(|i| (self.d[i] - x * b.d[i]) * per) }
+        self.over(b)
     }
 }
 
