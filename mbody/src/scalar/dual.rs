@@ -35,6 +35,12 @@ impl<S: Real, const N: usize> Dual<S, N> {
         Self { x: f, d: self.d.map(|d| slope * d) }
     }
 
+    /// Product.
+    #[inline(always)]
+    fn times(self, b: Self) -> Self {
+        Self { x: self.x * b.x, d: from_fn(|i| self.d[i] * b.x + self.x * b.d[i]) }
+    }
+
     /// Quotient, by differentiating x = q b.
     #[inline(always)]
     fn over(self, b: Self) -> Self {
@@ -72,7 +78,7 @@ impl<S: Real, const N: usize> Mul for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, b: Self) -> Self {
-        Self { x: self.x * b.x, d: from_fn(|i| self.d[i] * b.x + self.x * b.d[i]) }
+        self.times(b)
     }
 }
 
