@@ -3,7 +3,7 @@
 use super::Kinds;
 use crate::description::quantity::dimension::{Acceleration, Length};
 use crate::description::quantity::{NonNegativeQuantity, Quantity};
-use schemars::{JsonSchema, generate::SchemaSettings};
+use schemars::{JsonSchema, Schema, generate::SchemaSettings};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -28,6 +28,13 @@ pub struct Description {
     /// What URDF cannot say about its joints.
     #[serde(default)]
     pub joints: BTreeMap<String, JointOptions>,
+    /// Values of signals from which assembly, steady states and motions start: `crank.angle: 30 deg`. What is stated here is held while
+    /// loops are closed; everything else may move.
+    #[serde(default)]
+    pub start: Map<String, Value>,
+    /// Constraints, by name: `rod: { distance: { … } }`.
+    #[serde(default)]
+    pub constraints: Map<String, Value>,
     /// Force elements, by name: `rear_shock: { spring_damper: { … } }`.
     #[serde(default)]
     pub elements: Map<String, Value>,
@@ -70,27 +77,35 @@ pub enum JointKindDescription {
     Screw,
 }
 
+/// An entry of one kind with its parameters.
+fn choice(name: &str, about: &str, parameters: Schema) -> Value {
+    json!({
+        "type": "object",
+        "description": about,
+        "properties": { name: parameters },
+        "required": [name],
+        "additionalProperties": false
+    })
+}
+
 /// The JSON Schema (draft 2020-12) of descriptions with the given kinds.
 pub fn schema(kinds: &Kinds) -> Value {
     let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let mut choices = Vec::new();
-    for kind in kinds.elements() {
-        let parameters = (kind.schema)(&mut generator);
-        choices.push(json!({
-            "type": "object",
-            "description": kind.about,
-            "properties": { kind.name: parameters },
-            "required": [kind.name],
-            "additionalProperties": false
-        }));
-    }
+    let elements = kinds.elements().iter().map(|k| choice(k.name, k.about, (k.schema)(&mut generator))).collect::<Vec<_>>();
+    let constraints = kinds.constraints().iter().map(|k| choice(k.name, k.about, (k.schema)(&mut generator))).collect::<Vec<_>>();
     let mut root = generator.root_schema_for::<Description>().to_value();
     root["title"] = json!("FastBike description");
     root["properties"]["elements"] = json!({
         "type": "object",
         "description": "Force elements, by name; each is one kind with its parameters.",
-        "additionalProperties": { "oneOf": choices }
+        "additionalProperties": { "oneOf": elements }
     });
+    root["properties"]["constraints"] = json!({
+        "type": "object",
+        "description": "Constraints, by name; each is one kind with its parameters.",
+        "additionalProperties": { "oneOf": constraints }
+    });
+    root["properties"]["start"]["additionalProperties"] = json!({ "type": ["number", "string"] });
     // `root_schema_for` collects the definitions that the kinds refer to as well
     root
 }

@@ -192,7 +192,8 @@ pub struct FrameDescription {
 }
 
 impl FrameDescription {
-    fn place(&self, key: &str, site: &mut Site<'_>) -> Option<(BodyIndex, Pose<f64>)> {
+    /// The body the link belongs to, and the frame there.
+    pub(super) fn place(&self, key: &str, site: &mut Site<'_>) -> Option<(BodyIndex, Pose<f64>)> {
         let (body, X) = site.link(&format!("{key}.link"), &self.link)?;
         let rpy = self.rpy.map_or([0.0; 3], |rpy| rpy.map(Quantity::si));
         Some((body, X * Pose::from_xyz_rpy(self.at.map(Quantity::si), rpy)))

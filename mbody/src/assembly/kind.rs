@@ -1,6 +1,6 @@
 //! A kind of element: what a description may say and how it becomes a law.
 
-use super::Site;
+use super::{ConstraintKind, Site};
 use crate::description::finding::Finding;
 use crate::force::{Force, ForceLaw};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -78,16 +78,17 @@ fn build<T: ElementDescription>(site: &mut Site<'_>, value: &Value) -> Option<Fo
     }
 }
 
-/// The registry of element kinds.
+/// The registry of kinds of elements and constraints.
 #[derive(Clone, Debug)]
 pub struct Kinds {
     elements: Vec<ElementKind>,
+    constraints: Vec<ConstraintKind>,
 }
 
 impl Kinds {
     /// The kinds of this crate.
     pub fn standard() -> Self {
-        Self { elements: super::STANDARD.to_vec() }
+        Self { elements: super::STANDARD.to_vec(), constraints: super::STANDARD_CONSTRAINTS.to_vec() }
     }
 
     /// Adds the kinds of another crate; a kind of the same name replaces.
@@ -100,13 +101,33 @@ impl Kinds {
         self
     }
 
-    /// All kinds, in table order.
+    /// All kinds of elements, in table order.
     pub fn elements(&self) -> &[ElementKind] {
         &self.elements
     }
 
-    /// A kind by name.
+    /// A kind of element by name.
     pub fn element(&self, name: &str) -> Option<&ElementKind> {
         self.elements.iter().find(|k| k.name == name)
+    }
+
+    /// Adds constraints of another crate; a kind of the same name replaces.
+    #[must_use]
+    pub fn with_constraints(mut self, more: &[ConstraintKind]) -> Self {
+        for kind in more {
+            self.constraints.retain(|k| k.name != kind.name);
+            self.constraints.push(*kind);
+        }
+        self
+    }
+
+    /// All kinds of constraints, in table order.
+    pub fn constraints(&self) -> &[ConstraintKind] {
+        &self.constraints
+    }
+
+    /// A kind of constraint by name.
+    pub fn constraint(&self, name: &str) -> Option<&ConstraintKind> {
+        self.constraints.iter().find(|k| k.name == name)
     }
 }

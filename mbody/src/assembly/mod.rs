@@ -4,6 +4,8 @@
 
 mod assembled;
 pub mod characteristic;
+mod closing;
+mod constraints;
 mod description;
 mod elements;
 mod kind;
@@ -11,6 +13,7 @@ mod site;
 mod tree;
 
 pub use assembled::{Assembled, Override, assemble, assemble_urdf};
+pub use constraints::{ConstraintDescription, ConstraintKind, STANDARD_CONSTRAINTS};
 pub use description::{BaseDescription, Description, schema};
 pub use elements::STANDARD;
 pub use kind::{ElementDescription, ElementKind, Kinds};

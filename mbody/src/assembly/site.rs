@@ -4,7 +4,7 @@ use crate::description::Library;
 use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::quantity::{Quantity, dimension::Length};
 use crate::model::{BodyIndex, Model};
-use crate::spatial::{Pose, Vec3};
+use crate::spatial::{Pose, Rotation, Vec3};
 use crate::stage::World;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -101,6 +101,12 @@ impl<'a> Site<'a> {
     pub fn point(&mut self, key: &str, point: &PointDescription) -> Option<(BodyIndex, Vec3<f64>)> {
         let (body, X) = self.link(&format!("{key}.link"), &point.link)?;
         Some((body, X.point(point.at.map(Quantity::si).into())))
+    }
+
+    /// The body a point belongs to, and there the frame at the point with the axes of its link.
+    pub fn frame_at(&mut self, key: &str, point: &PointDescription) -> Option<(BodyIndex, Pose<f64>)> {
+        let (body, X) = self.link(&format!("{key}.link"), &point.link)?;
+        Some((body, X * Pose::new(Rotation::identity(), point.at.map(Quantity::si).into())))
     }
 
     /// Where a point of a body is in the design pose, in the world.

@@ -44,12 +44,13 @@ fn moving_joint(joint: &UrdfJoint, options: Option<&JointOptions>) -> Option<Joi
     }
 }
 
-/// Builds the tree. Findings carry paths of the URDF (`joint.<name>…`) or of the description (`joints.<name>…`).
+/// Builds the tree; `couple` adds what else ties joints to each other. Findings carry paths of the URDF (`joint.<name>…`) or of the description (`joints.<name>…`).
 pub(super) fn model(
     robot: &Robot,
     base: BaseDescription,
     options: &BTreeMap<String, JointOptions>,
     gravity: Vec3<f64>,
+    couple: &dyn Fn(&mut ModelBuilder, &mut Findings),
     findings: &mut Findings,
 ) -> Option<Model> {
     for name in options.keys().filter(|n| robot.joint(n).is_none()) {
@@ -63,6 +64,9 @@ pub(super) fn model(
     let mut builder = ModelBuilder::new();
     builder.gravity(gravity);
     let built = bodies(&mut builder, robot, base, options, findings).and_then(|()| follow(&mut builder, robot, options));
+    if built.is_ok() {
+        couple(&mut builder, findings);
+    }
     match built.and_then(|()| builder.finish()) {
         Ok(model) if !findings.has_errors() => Some(model),
         Ok(_) => None,

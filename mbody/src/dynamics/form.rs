@@ -137,5 +137,6 @@ fn correction(m: &Multiplier) -> Unknown {
         nominal: 1e-3,
         absolute_tolerance: 1e-6,
         design: 0.0,
+        start: None,
     }
 }

@@ -1,10 +1,13 @@
 //! From tree and elements to the residual `F(t, y, ẏ, u)`, and to the vocabulary of `problem`.
 
+mod closure;
 mod evaluation;
+mod explicit;
 mod form;
 mod plant;
 mod system;
 
+pub use closure::{Closure, Independent};
 pub use evaluation::{Account, Evaluation};
 pub use form::{Form, Formulation};
 pub use plant::TreePlant;

@@ -1,9 +1,14 @@
 //! The assembled system in the vocabulary of `problem`: the only file of the engine that implements it.
 
+use super::closure::{Closure, Work};
 use super::evaluation::{Evaluation, Evaluations, Maker};
+use super::explicit::ExplicitSolver;
 use super::{Account, Form, Formulation, System};
 use crate::scalar::{Lanes, PerScalar, SystemScalar};
-use problem::{At, Dae, Differentiable, Equation, EvalError, Input, Limit, Limits, Matrix, Outputs, Seeds, Signal, Unknown};
+use problem::{
+    At, Dae, Differentiable, Equation, EvalError, Explicit, Input, Limit, Limits, Matrix, Outputs, Projection, ProjectionError, Seeds,
+    Signal, Unknown,
+};
 use std::sync::Arc;
 
 /// An assembled system with work arrays of its own. One per task; the system behind it is shared.
@@ -11,6 +16,10 @@ pub struct TreePlant {
     system: Arc<System>,
     form: Arc<Form>,
     evaluations: PerScalar<Evaluations>,
+    /// Made when it is first asked for.
+    explicit: Option<Box<ExplicitSolver>>,
+    /// Work arrays of the projection, made when they are first needed.
+    closure: Option<Work>,
 }
 
 impl TreePlant {
@@ -28,7 +37,7 @@ impl TreePlant {
 
     fn with(system: Arc<System>, form: Arc<Form>) -> Self {
         let evaluations = PerScalar::new(&Maker(&system, &form));
-        Self { system, form, evaluations }
+        Self { system, form, evaluations, explicit: None, closure: None }
     }
 
     /// Unknowns and equations of the formulation.
@@ -52,6 +61,11 @@ impl TreePlant {
         load(e, at);
         e.run(&self.system, &self.form);
         e
+    }
+
+    /// The evaluation of plain numbers, as the last point left it.
+    pub(super) fn evaluation_mut(&mut self) -> &mut Evaluation<f64> {
+        f64::pick_mut(&mut self.evaluations)
     }
 
     /// Energy account at a point, J and W.
@@ -192,5 +206,39 @@ impl Differentiable for TreePlant {
             EvalError::Recoverable { equation } => EvalError::Recoverable { equation: equation % residual.rows() },
             fatal @ EvalError::Fatal { .. } => fatal,
         })
+    }
+}
+
+/// Velocities whose coordinates are held.
+fn held_in_position(system: &System, held: &[bool]) -> Vec<bool> {
+    let layout = &system.model.layout;
+    let stated: Vec<usize> = (0..layout.nq()).filter(|&i| held.get(i).copied().unwrap_or(false)).collect();
+    layout.held_velocities(&system.model, &stated)
+}
+
+impl Projection for TreePlant {
+    fn project(&mut self, _time: f64, y: &mut [f64], _u: &[f64], held: &[bool]) -> Result<(), ProjectionError> {
+        if self.system.constraints.is_empty() {
+            return Ok(());
+        }
+        let system = self.system.clone();
+        let work = self.closure.take().unwrap_or_else(|| Work::new(&system.model, &system.constraints));
+        let mut closure = Closure::with(&system.model, &system.constraints, work);
+        let (q, rest) = y.split_at_mut(system.model.layout.nq());
+        let v = &mut rest[..system.model.layout.nv()];
+        let of_velocities = held.get(q.len()..q.len() + v.len()).unwrap_or_default();
+        let projected = closure
+            .close(q, &held_in_position(&system, held))
+            .map_err(|rows| ProjectionError::Open { rows })
+            .and_then(|()| closure.project_velocity(q, v, of_velocities).map_err(|rows| ProjectionError::Velocity { rows }));
+        self.closure = Some(closure.into_work());
+        projected
+    }
+}
+
+impl Explicit for TreePlant {
+    fn solve_rates(&mut self, time: f64, y: &mut [f64], u: &[f64], yd: &mut [f64]) -> Result<(), EvalError> {
+        let system = &self.system;
+        self.explicit.get_or_insert_with(|| Box::new(ExplicitSolver::new(system))).solve(time, y, u, yd)
     }
 }

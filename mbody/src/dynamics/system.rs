@@ -182,6 +182,7 @@ impl System {
                         nominal: c.nominal,
                         absolute_tolerance: 1e-7,
                         design: body.joint.reference()[k - body.q.start],
+                        start: None,
                     };
                     kinematic.push(Equation {
                         name: format!("rate of {}", unknown.signal.name),
@@ -210,6 +211,7 @@ impl System {
                         nominal: if spins { 10.0 } else { c.nominal },
                         absolute_tolerance: 1e-6,
                         design: 0.0,
+                        start: None,
                     });
                 }
             }
@@ -232,6 +234,7 @@ impl System {
                 nominal: s.nominal,
                 absolute_tolerance: s.absolute_tolerance,
                 design: 0.0,
+                start: None,
             });
             let (what, unit, nominal) = s.row;
             self.base_equations.push(Equation {
@@ -279,6 +282,12 @@ impl System {
         (self.model.total_mass() * self.model.gravity.norm()).max(1.0)
     }
 
+    /// Lets start values be written into the unknowns.
+    pub(crate) fn start(&mut self, write: impl FnOnce(&mut [Unknown])) {
+        write(&mut self.base_unknowns);
+        self.form = Arc::new(Form::new(self, Formulation::Position));
+    }
+
     /// Multipliers of the rows that are held.
     fn multipliers(&mut self, held: &[(usize, usize)]) {
         let weight = self.weight();
@@ -293,6 +302,7 @@ impl System {
                 nominal: weight,
                 absolute_tolerance: 1e-6 * weight,
                 design: 0.0,
+                start: None,
             };
             let (error, error_unit, nominal) = (format!("{} of {}", r.error, c.name()), r.error_unit, r.nominal);
             Multiplier { constraint, row, level: r.level, unknown, error, error_unit, nominal }

@@ -108,4 +108,22 @@ impl Layout {
             tree[f.v] = tree[f.leader_v] * f.ratio;
         }
     }
+
+    /// Which independent velocities stand still when the given independent coordinates are held: one to one where a joint has as
+    /// many of both, else all velocities of the joint.
+    pub fn held_velocities(&self, model: &super::Model, coordinates: &[usize]) -> Vec<bool> {
+        let mut held = vec![false; self.nv()];
+        for &i in coordinates {
+            let k = self.independent_q[i];
+            let Some(body) = model.bodies.iter().skip(1).find(|b| b.q.contains(&k)) else { continue };
+            let tree = match body.q.len() == body.v.len() {
+                true => body.v.start + (k - body.q.start)..body.v.start + (k - body.q.start) + 1,
+                false => body.v.clone(),
+            };
+            for (held, v) in held.iter_mut().zip(&self.independent_v) {
+                *held |= tree.contains(v);
+            }
+        }
+        held
+    }
 }

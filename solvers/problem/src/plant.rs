@@ -32,8 +32,10 @@ pub struct Unknown {
     pub nominal: f64,
     /// Absolute tolerance for time integration.
     pub absolute_tolerance: f64,
-    /// Value in the design pose.
+    /// Value in the design pose, in which loops are closed.
     pub design: f64,
+    /// Value from which a motion starts, where the description states one.
+    pub start: Option<f64>,
 }
 
 /// What an equation is.
