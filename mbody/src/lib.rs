@@ -10,6 +10,7 @@
 
 pub mod algorithm;
 pub mod assembly;
+pub mod constraint;
 pub mod contact;
 pub mod description;
 pub mod dynamics;
