@@ -12,7 +12,7 @@
 //!
 //! Source: A. A. Shabana, *Dynamics of Multibody Systems*, 3rd ed. 2005, chapter 3; rates and forces by automatic differentiation are ours.
 
-use crate::model::BodyIndex;
+use crate::model::{BodyIndex, Model};
 use crate::scalar::{Dual, Family, Jet, Make, PerScalar, Real, SystemScalar};
 use crate::spatial::{Pose, Rotation, Twist, Vec3, Wrench};
 use std::borrow::Cow;
@@ -54,6 +54,10 @@ pub struct RowDeclared {
 pub trait ConstraintLaw: fmt::Debug + Send + Sync + 'static {
     /// The rows: those on coordinates first, in the order of [`Self::error`], then those of [`Self::slip`].
     fn rows(&self) -> Vec<RowDeclared>;
+    /// Axis of the second frame about which it may turn without any effect on the constraint (a rolling wheel).
+    fn spin_axis(&self) -> Option<Vec3<f64>> {
+        None
+    }
     /// Writes the errors of the rows on coordinates.
     fn error<R: Real>(&self, _X_FM: &Pose<R>, _error: &mut [R]) {}
     /// Writes the rows on velocities; linear in the twist.
@@ -217,6 +221,7 @@ pub struct Constraint {
     to: Place,
     rows: Vec<RowDeclared>,
     positions: usize,
+    spin_axis: Option<Vec3<f64>>,
     twins: PerScalar<Twins>,
     text: String,
 }
@@ -237,7 +242,8 @@ impl Constraint {
         let positions = rows.iter().take_while(|r| r.level == Level::Position).count();
         assert!(rows.len() <= MAX_ROWS, "a constraint has at most {MAX_ROWS} rows");
         assert!(rows[positions..].iter().all(|r| r.level == Level::Velocity), "rows on coordinates come first");
-        Self { name: name.into(), from, to, rows, positions, twins: PerScalar::new(&Maker(Arc::new(law))), text }
+        let spin_axis = law.spin_axis();
+        Self { name: name.into(), from, to, rows, positions, spin_axis, twins: PerScalar::new(&Maker(Arc::new(law))), text }
     }
 
     /// Name in the description.
@@ -258,6 +264,16 @@ impl Constraint {
     /// The rows.
     pub fn rows(&self) -> &[RowDeclared] {
         &self.rows
+    }
+
+    /// The body on whose joint angle nothing depends because of this constraint: it turns about the axis of a wheel.
+    pub fn spinning(&self, model: &Model) -> Option<BodyIndex> {
+        let body = model.body(self.to.body);
+        let (axis, joint) = (self.to.X_BF.R * self.spin_axis?, body.joint.rotation_axis()?);
+        // in line with the joint, and the center on its axis
+        let in_line = (axis - joint).norm().min((axis + joint).norm()) < 1e-9;
+        let aside = self.to.X_BF.p.cross(joint).norm();
+        (in_line && aside < 1e-9).then_some(self.to.body)
     }
 
     /// Error, rate and acceleration of each row along a motion. Allocates nothing.

@@ -7,6 +7,7 @@ mod cut_joint;
 mod distance;
 mod law;
 mod point;
+mod relative;
 mod rolling;
 mod row;
 
@@ -14,6 +15,7 @@ pub use cut_joint::{CutJoint, CutKind};
 pub use distance::Distance;
 pub use law::{Constraint, ConstraintLaw, Level, MAX_ROWS, Place, RelativeMotion, RowDeclared, RowValue};
 pub use point::HeldPoint;
+pub use relative::{apply_wrench, relative_motion};
 pub use rolling::{Rolling, SurfaceContact};
 
 #[cfg(test)]

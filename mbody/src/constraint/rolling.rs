@@ -68,6 +68,9 @@ impl ConstraintLaw for SurfaceContact {
     fn rows(&self) -> Vec<RowDeclared> {
         vec![normal()]
     }
+    fn spin_axis(&self) -> Option<Vec3<f64>> {
+        Some(self.0.axis)
+    }
     fn error<R: Real>(&self, X_FM: &Pose<R>, error: &mut [R]) {
         error[0] = -self.0.contact(X_FM).penetration;
     }
@@ -91,6 +94,9 @@ impl ConstraintLaw for Rolling {
             slip("longitudinal_force", "force of the surface on the body, forward", "slip forward"),
             slip("lateral_force", "force of the surface on the body, to the left", "slip to the left"),
         ]
+    }
+    fn spin_axis(&self) -> Option<Vec3<f64>> {
+        Some(self.0.axis)
     }
     fn error<R: Real>(&self, X_FM: &Pose<R>, error: &mut [R]) {
         error[0] = -self.0.contact(X_FM).penetration;

@@ -1,11 +1,15 @@
 //! One evaluation of the residual, for one scalar.
 //!
-//! `F = [ q̇ − N(q) v ;  Zᵀ(RNEA(q, v, v̇) − τ) ;  element rows ]`. No mass matrix is formed.
+//! `F = [ q̇ − N(q)(v + Jᵀμ) ;  Zᵀ(RNEA(q, v, v̇) − τ) − Jᵀλ ;  element rows ;  constraint rows ]`. Neither a mass matrix nor J is formed:
+//! multipliers act as wrenches on the bodies.
 
 use super::System;
+use super::form::{Form, Formulation};
 use crate::algorithm::{energy, kinematics, rnea::rnea};
+use crate::constraint::{Level, RowValue, apply_wrench, relative_motion};
 use crate::force::{Effort, Energy, Evaluated};
 use crate::scalar::{Family, Make, SystemScalar};
+use crate::spatial::Wrench;
 use crate::stage::Workspace;
 
 /// Arguments and results of one evaluation. Allocated once per plant and scalar.
@@ -26,6 +30,14 @@ pub struct Evaluation<S> {
     /// Work arrays of the tree.
     pub tree: Workspace<S>,
     joint_efforts: Vec<S>,
+    /// [rows of all constraints] error, rate, acceleration.
+    pub(super) rows: Vec<RowValue<S>>,
+    /// [rows of all constraints] wrench of a unit multiplier on the second frame.
+    pub(super) directions: Vec<Wrench<S>>,
+    /// \[bodies\] wrenches of the stabilizing multipliers.
+    pull: Vec<Wrench<S>>,
+    /// [tree nv] `v + Jᵀ μ`.
+    corrected: Vec<S>,
 }
 
 /// Family of [`Evaluation`]s.
@@ -35,18 +47,29 @@ impl Family for Evaluations {
     type Of<S: SystemScalar> = Evaluation<S>;
 }
 
-impl Make<Evaluations> for System {
+/// Makes work arrays for a system in one form.
+pub(super) struct Maker<'a>(pub &'a System, pub &'a Form);
+
+impl Make<Evaluations> for Maker<'_> {
     fn make<S: SystemScalar>(&self) -> Evaluation<S> {
+        let Self(system, form) = self;
         let zeros = |n| vec![S::zero(); n];
+        let rows = system.constraints.iter().map(|c| c.rows().len()).sum();
+        let stabilized = form.formulation == Formulation::Ggl && !system.constraints.is_empty();
+        let nv = system.model.layout.tree_nv;
         Evaluation {
             time: 0.0,
-            y: zeros(self.unknowns.len()),
-            yd: zeros(self.unknowns.len()),
-            u: zeros(self.inputs.len()),
-            residual: zeros(self.equations.len()),
-            outputs: zeros(self.outputs.len()),
-            tree: Workspace::new(&self.model),
-            joint_efforts: zeros(self.model.layout.tree_nv),
+            y: zeros(form.unknowns.len()),
+            yd: zeros(form.unknowns.len()),
+            u: zeros(system.inputs.len()),
+            residual: zeros(form.equations.len()),
+            outputs: zeros(system.outputs.len()),
+            tree: Workspace::new(&system.model),
+            joint_efforts: zeros(nv),
+            rows: vec![RowValue::default(); rows],
+            directions: vec![Wrench::zero(); rows],
+            pull: vec![Wrench::zero(); if stabilized { system.model.bodies.len() } else { 0 }],
+            corrected: zeros(if stabilized { nv } else { 0 }),
         }
     }
 }
@@ -78,9 +101,10 @@ impl<S: SystemScalar> Evaluation<S> {
     }
 
     /// Evaluates residual and outputs at `(time, y, yd, u)`. Allocates nothing.
-    pub fn run(&mut self, system: &System) {
+    pub fn run(&mut self, system: &System, form: &Form) {
         self.stages(system);
         self.elements(system);
+        self.constraints(system, form);
         let (model, w) = (&system.model, &mut self.tree);
         let (nq, nv) = (model.layout.nq(), model.layout.nv());
         rnea(model, &w.position, &w.velocity, &w.acceleration, &w.applied, &mut w.transmitted, &mut w.tau);
@@ -91,9 +115,10 @@ impl<S: SystemScalar> Evaluation<S> {
         model.layout.reduce(&mut w.tau, &mut rest[..nv]);
         // q̇ − N(q) v, joint by joint, kept for independent coordinates
         let mut row = 0;
+        let v = if self.corrected.is_empty() { &w.velocity.v } else { &self.corrected };
         for body in model.bodies.iter().skip(1) {
             let mut rates = [S::zero(); 7];
-            let (q, v) = (&w.position.q[body.q.clone()], &w.velocity.v[body.v.clone()]);
+            let (q, v) = (&w.position.q[body.q.clone()], &v[body.v.clone()]);
             body.joint.rates(q, v, &mut rates[..body.q.len()]);
             for (k, rate) in body.q.clone().zip(rates) {
                 if model.layout.independent_q.get(row) == Some(&k) {
@@ -101,6 +126,59 @@ impl<S: SystemScalar> Evaluation<S> {
                     row += 1;
                 }
             }
+        }
+    }
+
+    /// Evaluates all constraints: wrenches of the multipliers, rows, corrected velocities.
+    fn constraints(&mut self, system: &System, form: &Form) {
+        if system.constraints.is_empty() {
+            return;
+        }
+        let (model, w) = (&system.model, &mut self.tree);
+        self.pull.fill(Wrench::zero());
+        let (mut first_row, mut k, mut correction) = (0, 0, form.first_correction);
+        for (c, constraint) in system.constraints.iter().enumerate() {
+            let rows = first_row..first_row + constraint.rows().len();
+            first_row = rows.end;
+            let motion = relative_motion(model, w, constraint);
+            constraint.evaluate(&motion, &mut self.rows[rows.clone()]);
+            constraint.directions(&motion.X_FM, &mut self.directions[rows.clone()]);
+            let (mut F, mut G) = (Wrench::zero(), Wrench::zero());
+            while let Some(m) = system.multipliers.get(k).filter(|m| m.constraint == c) {
+                let direction = self.directions[rows.start + m.row];
+                let at = form.first_multiplier + k;
+                F += direction.scaled(self.y[at]);
+                self.residual[at] = form.formulation.row(m.level, &self.rows[rows.start + m.row]);
+                if form.formulation == Formulation::Ggl && m.level == Level::Position {
+                    G += direction.scaled(self.y[correction]);
+                    self.residual[correction] = self.rows[rows.start + m.row].error;
+                    correction += 1;
+                }
+                k += 1;
+            }
+            apply_wrench(constraint, &motion.X_FM, F, &mut w.applied);
+            if form.formulation == Formulation::Ggl {
+                apply_wrench(constraint, &motion.X_FM, G, &mut self.pull);
+            }
+        }
+        if form.formulation == Formulation::Ggl {
+            self.correct(system);
+        }
+    }
+
+    /// `v + Jᵀ μ` in tree velocities, from the wrenches of μ on the bodies.
+    fn correct(&mut self, system: &System) {
+        let (model, w) = (&system.model, &self.tree);
+        for (i, body) in model.bodies.iter().enumerate().skip(1).rev() {
+            let F = self.pull[i];
+            body.joint.effort(&w.position.H[body.v.clone()], F, &mut self.corrected[body.v.clone()]);
+            if body.parent.get() != 0 {
+                self.pull[body.parent.get()] += w.position.X_PB[i].wrench_to_parent(F);
+            }
+        }
+        model.layout.spread(&mut self.corrected);
+        for (x, v) in self.corrected.iter_mut().zip(&w.velocity.v) {
+            *x += *v;
         }
     }
 

@@ -1,22 +1,39 @@
 //! The assembled system in the vocabulary of `problem`: the only file of the engine that implements it.
 
-use super::evaluation::{Evaluation, Evaluations};
-use super::{Account, System};
-use crate::scalar::{Lanes, Make, PerScalar, SystemScalar};
+use super::evaluation::{Evaluation, Evaluations, Maker};
+use super::{Account, Form, Formulation, System};
+use crate::scalar::{Lanes, PerScalar, SystemScalar};
 use problem::{At, Dae, Differentiable, Equation, EvalError, Input, Limit, Limits, Matrix, Outputs, Seeds, Signal, Unknown};
 use std::sync::Arc;
 
 /// An assembled system with work arrays of its own. One per task; the system behind it is shared.
 pub struct TreePlant {
     system: Arc<System>,
+    form: Arc<Form>,
     evaluations: PerScalar<Evaluations>,
 }
 
 impl TreePlant {
-    /// A plant over a shared system.
+    /// A plant over a shared system, with constraints on coordinates as they are: the form of steady states.
     pub fn new(system: Arc<System>) -> Self {
-        let evaluations = PerScalar::new(system.as_ref());
-        Self { system, evaluations }
+        let form = system.form.clone();
+        Self::with(system, form)
+    }
+
+    /// A plant over a shared system in a formulation of its constraints.
+    pub fn in_formulation(system: Arc<System>, formulation: Formulation) -> Self {
+        let form = Arc::new(Form::new(&system, formulation));
+        Self::with(system, form)
+    }
+
+    fn with(system: Arc<System>, form: Arc<Form>) -> Self {
+        let evaluations = PerScalar::new(&Maker(&system, &form));
+        Self { system, form, evaluations }
+    }
+
+    /// Unknowns and equations of the formulation.
+    pub fn form(&self) -> &Form {
+        &self.form
     }
 
     /// The assembled system.
@@ -26,14 +43,14 @@ impl TreePlant {
 
     /// Another plant over the same system, for another task.
     pub fn another(&self) -> Self {
-        Self::new(self.system.clone())
+        Self::with(self.system.clone(), self.form.clone())
     }
 
     /// Evaluates at a point and hands out everything that was computed.
     pub fn evaluate_at(&mut self, at: At<'_>) -> &Evaluation<f64> {
         let e = f64::pick_mut(&mut self.evaluations);
         load(e, at);
-        e.run(&self.system);
+        e.run(&self.system, &self.form);
         e
     }
 
@@ -54,12 +71,6 @@ impl TreePlant {
         let a = e.account(&self.system);
         let rate = (a.kinetic + a.gravity + a.elements.stored).derivative(0);
         (rate, self.account_at(at))
-    }
-}
-
-impl Make<Evaluations> for Arc<System> {
-    fn make<S: SystemScalar>(&self) -> Evaluation<S> {
-        self.as_ref().make()
     }
 }
 
@@ -88,10 +99,10 @@ fn first_non_finite(residual: &[f64]) -> Result<(), EvalError> {
 
 impl Dae for TreePlant {
     fn unknowns(&self) -> &[Unknown] {
-        &self.system.unknowns
+        &self.form.unknowns
     }
     fn equations(&self) -> &[Equation] {
-        &self.system.equations
+        &self.form.equations
     }
     fn inputs(&self) -> &[Input] {
         &self.system.inputs
@@ -143,7 +154,7 @@ fn sweep<S: SystemScalar>(
             }
         }
     }
-    e.run(&plant.system);
+    e.run(&plant.system, &plant.form);
     let pairs = [(&e.residual, values.0, d.0), (&e.outputs, values.1, d.1)];
     for (duals, value, derivative) in pairs {
         for (value, x) in value.iter_mut().zip(duals) {

@@ -1,12 +1,15 @@
 //! The assembled system: tree, elements and the signals of all of them. Immutable; shared by all plants.
 //!
-//! `y = (q, v, s)`; rows: `q̇ − N(q) v` (kinematic), `RNEA(q, v, v̇) − τ` (dynamic), one row per element state.
+//! `y = (q, v, s, λ)`; rows: `q̇ − N(q) v` (kinematic), `RNEA(q, v, v̇) − τ − Jᵀλ` (dynamic), one row per element state and multiplier.
 
+use super::form::{Form, Formulation};
+use crate::constraint::{Constraint, Level};
 use crate::force::Force;
 use crate::model::Model;
 use problem::{Equation, EquationKind, Input, Limit, Signal, Unknown, UnknownKind};
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// An element in the system.
@@ -57,13 +60,46 @@ pub enum SystemError {
     },
 }
 
+/// A row of a constraint that is held, with its multiplier.
+#[derive(Clone, Debug)]
+pub(crate) struct Multiplier {
+    /// Index of the constraint.
+    pub constraint: usize,
+    /// Its row.
+    pub row: usize,
+    /// Coordinates or velocities.
+    pub level: Level,
+    /// The multiplier as an unknown.
+    pub unknown: Unknown,
+    /// What is kept at zero: `closure: gap along x`.
+    pub error: String,
+    /// Unit of that.
+    pub error_unit: &'static str,
+    /// Typical magnitude of that.
+    pub nominal: f64,
+}
+
+/// Constraints with the rows that are held, and the coordinates in which they are closed.
+#[derive(Debug, Default)]
+pub struct Closed {
+    /// The constraints.
+    pub constraints: Vec<Constraint>,
+    /// Held rows: constraint and row; the others depend on them.
+    pub held: Vec<(usize, usize)>,
+    /// [nq] independent coordinates, where they differ from the references of the joints.
+    pub q: Option<Vec<f64>>,
+}
+
 /// Tree, elements and signals.
 #[derive(Debug)]
 pub struct System {
     pub(crate) model: Model,
     pub(crate) elements: Vec<Element>,
-    pub(crate) unknowns: Vec<Unknown>,
-    pub(crate) equations: Vec<Equation>,
+    pub(crate) constraints: Vec<Constraint>,
+    pub(crate) multipliers: Vec<Multiplier>,
+    pub(crate) base_unknowns: Vec<Unknown>,
+    pub(crate) base_equations: Vec<Equation>,
+    pub(crate) form: Arc<Form>,
     pub(crate) inputs: Vec<Input>,
     pub(crate) outputs: Vec<Signal>,
     pub(crate) limits: Vec<Limit>,
@@ -78,10 +114,25 @@ fn effort_unit(velocity_unit: &str) -> (&'static str, &'static str) {
 impl System {
     /// Joins a tree and its elements.
     pub fn new(model: Model, forces: Vec<Force>) -> Result<Self, SystemError> {
-        let mut system = Self {
-            elements: Vec::with_capacity(forces.len()),
+        Self::constrained(model, Closed::default(), forces)
+    }
+
+    /// Joins a tree, constraints and elements.
+    pub fn constrained(model: Model, closed: Closed, forces: Vec<Force>) -> Result<Self, SystemError> {
+        let empty = Form {
+            formulation: Formulation::Position,
             unknowns: Vec::new(),
             equations: Vec::new(),
+            first_multiplier: 0,
+            first_correction: 0,
+        };
+        let mut system = Self {
+            elements: Vec::with_capacity(forces.len()),
+            constraints: closed.constraints,
+            multipliers: Vec::new(),
+            base_unknowns: Vec::new(),
+            base_equations: Vec::new(),
+            form: Arc::new(empty),
             inputs: Vec::new(),
             outputs: Vec::new(),
             limits: Vec::new(),
@@ -89,11 +140,16 @@ impl System {
             model,
         };
         system.tree_signals(&forces);
+        if let Some(q) = closed.q {
+            system.base_unknowns.iter_mut().zip(q).for_each(|(unknown, q)| unknown.design = q);
+        }
         let mut limits = Vec::new();
         for force in forces {
             limits.extend(force.declared().limits.iter().map(|l| (l.clone(), force.name().to_owned())));
             system.element(force)?;
         }
+        system.multipliers(&closed.held);
+        system.form = Arc::new(Form::new(&system, Formulation::Position));
         system.check_names()?;
         for (l, owner) in limits {
             if system.find(&l.signal).is_none() {
@@ -107,8 +163,9 @@ impl System {
 
     /// Unknowns and rows of the independent coordinates and velocities.
     fn tree_signals(&mut self, forces: &[Force]) {
-        let spinning = |i: usize| forces.iter().any(|f| f.declared().spinning.iter().any(|b| b.get() == i));
-        let weight = (self.model.total_mass() * self.model.gravity.norm()).max(1.0);
+        let rolls = |i: usize| self.constraints.iter().any(|c| c.spinning(&self.model).is_some_and(|b| b.get() == i));
+        let spinning = |i: usize| forces.iter().any(|f| f.declared().spinning.iter().any(|b| b.get() == i)) || rolls(i);
+        let weight = self.weight();
         let layout = &self.model.layout;
         let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         let (mut kinematic, mut dynamic) = (Vec::new(), Vec::new());
@@ -157,8 +214,8 @@ impl System {
                 }
             }
         }
-        self.unknowns = positions.into_iter().chain(velocities).collect();
-        self.equations = kinematic.into_iter().chain(dynamic).collect();
+        self.base_unknowns = positions.into_iter().chain(velocities).collect();
+        self.base_equations = kinematic.into_iter().chain(dynamic).collect();
     }
 
     /// States, inputs and outputs of one element.
@@ -167,7 +224,7 @@ impl System {
         let first_state = self.state_count;
         for s in &declared.states {
             let owner = force.name();
-            self.unknowns.push(Unknown {
+            self.base_unknowns.push(Unknown {
                 signal: Signal::new(format!("{owner}.{}", s.name), s.unit, s.about),
                 kind: UnknownKind::State,
                 cyclic: false,
@@ -177,7 +234,12 @@ impl System {
                 design: 0.0,
             });
             let (what, unit, nominal) = s.row;
-            self.equations.push(Equation { name: format!("{what} of {owner}"), unit: unit.into(), nominal, kind: EquationKind::Element });
+            self.base_equations.push(Equation {
+                name: format!("{what} of {owner}"),
+                unit: unit.into(),
+                nominal,
+                kind: EquationKind::Element,
+            });
         }
         self.state_count += declared.states.len();
         let mut inputs = Vec::new();
@@ -212,9 +274,35 @@ impl System {
         Ok(())
     }
 
+    /// Weight of the moving bodies, N; at least 1.
+    fn weight(&self) -> f64 {
+        (self.model.total_mass() * self.model.gravity.norm()).max(1.0)
+    }
+
+    /// Multipliers of the rows that are held.
+    fn multipliers(&mut self, held: &[(usize, usize)]) {
+        let weight = self.weight();
+        let of = |&(constraint, row): &(usize, usize)| {
+            let c = &self.constraints[constraint];
+            let r = &c.rows()[row];
+            let unknown = Unknown {
+                signal: Signal::new(format!("{}.{}", c.name(), r.multiplier), r.unit, r.about),
+                kind: UnknownKind::Algebraic,
+                cyclic: false,
+                differential: false,
+                nominal: weight,
+                absolute_tolerance: 1e-6 * weight,
+                design: 0.0,
+            };
+            let (error, error_unit, nominal) = (format!("{} of {}", r.error, c.name()), r.error_unit, r.nominal);
+            Multiplier { constraint, row, level: r.level, unknown, error, error_unit, nominal }
+        };
+        self.multipliers = held.iter().map(of).collect();
+    }
+
     fn check_names(&self) -> Result<(), SystemError> {
         let mut seen: HashMap<&str, ()> = HashMap::new();
-        let unknowns = self.unknowns.iter().map(|u| &u.signal);
+        let unknowns = self.form.unknowns.iter().map(|u| &u.signal);
         for signal in unknowns.chain(self.inputs.iter().map(|i| &i.signal)).chain(&self.outputs) {
             if seen.insert(&signal.name, ()).is_some() {
                 let owner = signal.name.split('.').next().unwrap_or_default().to_owned();
@@ -225,7 +313,7 @@ impl System {
     }
 
     fn find(&self, name: &str) -> Option<&Signal> {
-        let unknowns = self.unknowns.iter().map(|u| &u.signal);
+        let unknowns = self.form.unknowns.iter().map(|u| &u.signal);
         unknowns.chain(self.inputs.iter().map(|i| &i.signal)).chain(&self.outputs).find(|s| s.name == name)
     }
 
@@ -257,13 +345,18 @@ impl System {
     /// Height of every body's origin in the design pose, by the name of its joint, m.
     pub fn design_heights(&self) -> Vec<(&str, f64)> {
         let mut w = crate::stage::Workspace::<f64>::new(&self.model);
-        w.to_design(&self.model);
+        w.to_coordinates(&self.model, self.base_unknowns[..self.model.layout.nq()].iter().map(|u| u.design));
         let height = |i: usize| w.world.X_WB[i].p.z;
         self.model.bodies.iter().enumerate().skip(1).map(|(i, b)| (b.joint_name.as_str(), height(i))).collect()
     }
 
-    /// The unknowns.
+    /// The unknowns, multipliers included.
     pub fn unknowns(&self) -> &[Unknown] {
-        &self.unknowns
+        &self.form.unknowns
+    }
+
+    /// The constraints.
+    pub fn constraints(&self) -> &[Constraint] {
+        &self.constraints
     }
 }

@@ -96,4 +96,16 @@ impl Layout {
             *x = tree[t];
         }
     }
+
+    /// Writes the tree velocities `Z Zᵀ τ` in place of tree generalized forces τ.
+    #[inline]
+    pub fn spread<S: Real>(&self, tree: &mut [S]) {
+        for f in self.followers.iter().rev() {
+            let share = tree[f.v] * f.ratio;
+            tree[f.leader_v] += share;
+        }
+        for f in &self.followers {
+            tree[f.v] = tree[f.leader_v] * f.ratio;
+        }
+    }
 }

@@ -34,6 +34,20 @@ impl<S: Real, const N: usize> Dual<S, N> {
     fn chain(self, f: S, slope: S) -> Self {
         Self { x: f, d: self.d.map(|d| slope * d) }
     }
+
+    /// Product.
+    #[inline(always)]
+    fn times(self, b: Self) -> Self {
+        Self { x: self.x * b.x, d: from_fn(|i| self.d[i] * b.x + self.x * b.d[i]) }
+    }
+
+    /// Quotient, by differentiating x = q b.
+    #[inline(always)]
+    fn over(self, b: Self) -> Self {
+        let per = b.x.recip();
+        let x = self.x * per;
+        Self { x, d: from_fn(|i| (self.d[i] - x * b.d[i]) * per) }
+    }
 }
 
 impl<S: Real, const N: usize> Neg for Dual<S, N> {
@@ -64,7 +78,7 @@ impl<S: Real, const N: usize> Mul for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, b: Self) -> Self {
-        Self { x: self.x * b.x, d: from_fn(|i| self.d[i] * b.x + self.x * b.d[i]) }
+        self.times(b)
     }
 }
 
@@ -72,9 +86,7 @@ impl<S: Real, const N: usize> Div for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, b: Self) -> Self {
-        let per = b.x.recip();
-        let x = self.x * per;
-        Self { x, d: from_fn(|i| (self.d[i] - x * b.d[i]) * per) }
+        self.over(b)
     }
 }
 

@@ -115,6 +115,14 @@ impl Workspace<f64> {
         kinematics::position(model, &mut self.position);
         kinematics::world(model, &self.position, &mut self.world);
     }
+
+    /// Poses of all bodies at the given independent coordinates.
+    pub fn to_coordinates(&mut self, model: &Model, q: impl Iterator<Item = f64>) {
+        let q: Vec<f64> = q.collect();
+        model.layout.expand_q(&q, &mut self.position.q);
+        kinematics::position(model, &mut self.position);
+        kinematics::world(model, &self.position, &mut self.world);
+    }
 }
 
 /// One workspace for each scalar of the assembled system.
