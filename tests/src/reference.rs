@@ -82,6 +82,15 @@ impl Table {
         &self.rows[row][self.column(column)]
     }
 
+    /// A cell as a number.
+    ///
+    /// # Panics
+    /// It is none.
+    pub fn number(&self, row: usize, column: &str) -> f64 {
+        let cell = self.cell(row, column);
+        cell.parse().unwrap_or_else(|_| panic!("`{cell}` is not a number"))
+    }
+
     /// The first row whose cells in some columns are these texts.
     ///
     /// # Panics

@@ -2,9 +2,11 @@
 
 #![allow(non_snake_case)]
 
+mod bicycle;
 mod chain;
 mod gsxr1000;
 mod gsxr1000_cornering;
+mod mechanisms;
 mod moto11;
 mod ref11;
 mod sel04;
@@ -13,6 +15,7 @@ use validation::evidence;
 
 #[test]
 fn the_table_of_evidence_is_up_to_date() {
-    let rows = [ref11::EVIDENCE, gsxr1000::EVIDENCE, gsxr1000_cornering::EVIDENCE, moto11::EVIDENCE, sel04::EVIDENCE, chain::EVIDENCE];
+    let vehicles = [ref11::EVIDENCE, gsxr1000::EVIDENCE, gsxr1000_cornering::EVIDENCE, moto11::EVIDENCE, sel04::EVIDENCE, chain::EVIDENCE];
+    let rows: Vec<_> = vehicles.iter().chain(bicycle::EVIDENCE).chain([&mechanisms::EVIDENCE]).copied().collect();
     evidence::hold("validation", &rows);
 }

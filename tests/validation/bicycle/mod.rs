@@ -1,0 +1,9 @@
+//! The benchmark bicycle `whipple`: linear equations, eigenvalues, one published nonlinear state, one published motion.
+
+mod signs;
+mod source;
+
+use validation::evidence::Row;
+
+/// Rows of the table.
+pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE];
