@@ -5,7 +5,7 @@
 //! manifold, and f is evaluated there, so that no step ends where the next one could not begin.
 //!
 //! Samples are ends of steps. ARKODE interpolates with polynomials of degree five at most, which at tight tolerances lose
-//! several digits against steps of this order. Dense sampling therefore costs at least one step per sample. For the same reason
+//! two or three digits against steps of this order. Dense sampling therefore costs at least one step per sample. For the same reason
 //! events are found by steps: where a sign changes, the root is bracketed by stepping again, not on a polynomial.
 //!
 //! Source: J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*, Numerical Algorithms 53, 2010, 383–396, the

@@ -21,6 +21,7 @@ fn tested(relative: f64) -> IntegrationOptions {
 
 /// E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, section IV.10, problem ROBER: the reference
 /// values at t = 1, 10, …, 10¹¹ that accompany the book (y₁ and y₂).
+#[allow(clippy::excessive_precision, reason = "as printed")]
 const ROBERTSON: [(f64, [f64; 2]); 12] = [
     (1e0, [0.9664597373330035, 0.3074626578578675e-4]),
     (1e1, [0.8413699238414729, 0.1623390937990473e-4]),
@@ -48,7 +49,7 @@ fn robertson_over_eleven_decades() {
         for (y, published) in y.iter().zip(published) {
             assert!((y / published - 1.0).abs() < 1e-5, "{y:e} for {published:e} at {time:e}");
         }
-        assert!((y.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!((y.iter().sum::<f64>() - 1.0).abs() < 1e-8);
     }
 }
 
@@ -74,7 +75,7 @@ fn robertson_with_the_roots_of_the_guide() {
 fn the_pendulum_of_index_two() {
     let times = Pendulum::times();
     let (y, yd) = Pendulum::IMPLICIT_START;
-    for (relative, close) in [(1e-6, 2e-3), (1e-8, 5e-5), (1e-10, 1e-6)] {
+    for (relative, close) in [(1e-6, 1e-3), (1e-8, 1e-5), (1e-10, 1e-7)] {
         let record = ida(&mut Pendulum { projected: false, watched: false }, &times, (&y, &yd), &tolerance(relative)).finished(&times);
         let error = record.deviation(Pendulum::exact);
         println!("{relative:e}: {error:.1e} {:?}", record.outcome);
@@ -82,8 +83,9 @@ fn the_pendulum_of_index_two() {
         // λ = v² − g y, and the second multiplier vanishes
         for (time, s, _) in &record.samples[1..] {
             let lambda = s[2] * s[2] + s[3] * s[3] - 9.81 * s[1];
+            // a multiplier is a quotient of errors and steps, and the steps are about 10⁻²
             assert!((s[4] - lambda).abs() < 1e4 * relative, "{} for {lambda} at {time}", s[4]);
-            assert!(s[5].abs() < 1e2 * relative, "{} at {time}", s[5]);
+            assert!(s[5].abs() < 1e3 * relative, "{} at {time}", s[5]);
             assert!((s[0].hypot(s[1]) - 1.0).abs() < 10.0 * relative);
         }
     }
@@ -115,7 +117,8 @@ fn errors_follow_the_tolerance() {
         let error = record.deviation(Oscillator::exact);
         let rates = record.samples.iter().map(|(time, _, yd)| largest_difference(yd, &[time.cos(), -time.sin()])).fold(0.0, f64::max);
         println!("{relative:e}: y {error:.1e}, yd {rates:.1e}, {:?}", record.outcome);
-        assert!(error < 100.0 * relative && rates < 1000.0 * relative, "{error:e} {rates:e} at {relative:e}");
+        // local errors of one tolerance add up over some hundred steps
+        assert!(error < 500.0 * relative && rates < 500.0 * relative, "{error:e} {rates:e} at {relative:e}");
     }
 }
 
@@ -124,6 +127,16 @@ fn no_step_passes_the_last_time() {
     let mut walled = Scalar::decay();
     walled.rate = |time, y| if time > 1.0 { Err(EvalError::Fatal { equation: 0 }) } else { Ok(-y) };
     ida(&mut walled, &[0.0, 0.3, 1.0], (&[1.0], &[-1.0]), &tolerance(1e-8)).finished(&[0.0, 0.3, 1.0]);
+}
+
+#[test]
+fn a_first_step_below_rounding_is_no_failure() {
+    // IDA begins with a step of 0.5/‖ẏ‖, here 10⁻¹⁷ s
+    let mut ramp = Scalar::decay();
+    ramp.rate = |_, _| Ok(5e4);
+    ramp.slope = |_, _| Ok(0.0);
+    let record = ida(&mut ramp, &[10.0, 11.0], (&[0.0], &[5e4]), &tolerance(1e-12)).finished(&[10.0, 11.0]);
+    assert!((record.y[0] - 5e4).abs() < 1e-6, "{:?} {:?}", record.y, record.outcome);
 }
 
 #[test]
@@ -195,10 +208,12 @@ fn a_wall_is_reached_and_named() {
     assert!((record.y[0] - (-record.outcome.time).exp()).abs() < 1e-6, "{:?} {:?}", record.outcome, record.y);
 }
 
-/// ẋ = 1 beside an equation that contains nothing.
-struct Empty;
+/// ẋ = −10⁹ x and 0 = y with a matrix of somebody else.
+struct Mistaken {
+    matrix: fn(f64) -> [f64; 4],
+}
 
-impl DaeProblem for Empty {
+impl DaeProblem for Mistaken {
     fn size(&self) -> usize {
         2
     }
@@ -208,12 +223,12 @@ impl DaeProblem for Empty {
     fn absolute_tolerance(&self) -> &[f64] {
         &[1.0, 1.0]
     }
-    fn residual(&mut self, _time: f64, _y: &[f64], yd: &[f64], residual: &mut [f64]) -> Result<(), EvalError> {
-        residual.copy_from_slice(&[yd[0] - 1.0, 0.0]);
+    fn residual(&mut self, _time: f64, y: &[f64], yd: &[f64], residual: &mut [f64]) -> Result<(), EvalError> {
+        residual.copy_from_slice(&[yd[0] + 1e9 * y[0], y[1]]);
         Ok(())
     }
     fn jacobian(&mut self, _time: f64, c: f64, _y: &[f64], _yd: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
-        jacobian.as_mut_slice().copy_from_slice(&[c, 0.0, 0.0, 0.0]);
+        jacobian.as_mut_slice().copy_from_slice(&(self.matrix)(c));
         Ok(())
     }
 }
@@ -225,21 +240,16 @@ fn endings_are_told_apart() {
     assert_eq!((record.outcome.ending, record.outcome.steps), (IntegrationEnding::TooManySteps, 3));
     assert!(record.outcome.time > 0.0 && largest_difference(&record.y, &Oscillator::exact(record.outcome.time)) < 1e-8);
 
-    let record = ida(&mut Empty, &[0.0, 1.0], (&[0.0, 0.0], &[1.0, 0.0]), &tolerance(1e-6));
-    assert_eq!(record.outcome.ending, IntegrationEnding::Singular);
+    let first = IntegrationOptions { first_step: Some(1.0), ..tolerance(1e-9) };
+    let run = |matrix| ida(&mut Mistaken { matrix }, &[0.0, 1.0], (&[1.0, 0.0], &[-1e9, 0.0]), &first).outcome.ending;
+    assert_eq!(run(|c| [c, 0.0, 0.0, 0.0]), IntegrationEnding::Singular);
+    assert_eq!(run(|c| [-c, 0.0, 0.0, 1.0]), IntegrationEnding::Convergence);
 
     let mut noise = Scalar::decay();
     noise.rate = |time, _| Ok(1e12 * (1e18 * time).sin());
     noise.slope = |_, _| Ok(0.0);
     let record = ida(&mut noise, &[1.0, 2.0], (&[0.0], &[0.0]), &tolerance(1e-9));
     assert_eq!(record.outcome.ending, IntegrationEnding::ErrorTest);
-
-    // a slope of the wrong sign and far too large lets no iteration converge
-    let mut wrong = Scalar::decay();
-    wrong.rate = |_, y| Ok(-1e12 * (y - 1.0).powi(3) - y);
-    wrong.slope = |_, _| Ok(1e30);
-    let record = ida(&mut wrong, &[0.0, 1.0], (&[1.0], &[-1.0]), &tolerance(1e-9));
-    assert_eq!(record.outcome.ending, IntegrationEnding::Convergence, "{:?}", record.outcome);
 
     for refused in [
         IntegrationOptions { relative_tolerance: -1.0, ..Default::default() },

@@ -3,17 +3,17 @@
 use super::context::Context;
 use super::dense::{DenseSolver, matrix_entries_mut};
 use super::vector::{Vector, entries, entries_mut};
-use crate::guard::Guard;
+use crate::guard::{FATAL, Guard};
 use problem::{EvalError, IntegrationEnding};
 use std::ffi::{c_int, c_long, c_void};
 use std::{ptr, slice};
 use sundials_sys::{
     IDA_CONV_FAIL, IDA_ERR_FAIL, IDA_ILL_INPUT, IDA_LSETUP_FAIL, IDA_LSOLVE_FAIL, IDA_NORMAL, IDA_REP_RES_ERR, IDA_RES_FAIL,
     IDA_ROOT_RETURN, IDA_RTFUNC_FAIL, IDA_SUCCESS, IDA_TOO_MUCH_ACC, IDA_TOO_MUCH_WORK, IDA_TSTOP_RETURN, IDACreate, IDAFree,
-    IDAGetCurrentTime, IDAGetDky, IDAGetLastLinFlag, IDAGetNumErrTestFails, IDAGetNumNonlinSolvIters, IDAGetNumStepSolveFails,
-    IDAGetNumSteps, IDAGetRootInfo, IDAInit, IDALS_JACFUNC_RECVR, IDALS_JACFUNC_UNRECVR, IDAReInit, IDARootInit, IDASVtolerances, IDASetId,
-    IDASetInitStep, IDASetJacFn, IDASetLinearSolver, IDASetMaxNumSteps, IDASetMaxStep, IDASetNoInactiveRootWarn, IDASetStopTime,
-    IDASetSuppressAlg, IDASetUserData, IDASolve, N_Vector, SUNMatrix,
+    IDAGetCurrentStep, IDAGetCurrentTime, IDAGetDky, IDAGetLastLinFlag, IDAGetNumErrTestFails, IDAGetNumNonlinSolvIters,
+    IDAGetNumStepSolveFails, IDAGetNumSteps, IDAGetRootInfo, IDAInit, IDALS_JACFUNC_RECVR, IDALS_JACFUNC_UNRECVR, IDAReInit, IDARootInit,
+    IDASVtolerances, IDASetId, IDASetInitStep, IDASetJacFn, IDASetLinearSolver, IDASetMaxNumSteps, IDASetMaxStep, IDASetNoInactiveRootWarn,
+    IDASetStopTime, IDASetSuppressAlg, IDASetUserData, IDASolve, N_Vector, SUNMatrix,
 };
 
 /// What IDA calls back.
@@ -80,6 +80,40 @@ struct Call<'a> {
     system: &'a mut dyn System,
     events: usize,
     guard: Guard,
+    /// The integrator itself.
+    memory: *mut c_void,
+    stuck: Stuck,
+}
+
+/// Watches for steps so short that rounding swallows them. A few are no harm, at a start for instance, but IDA goes on for ever.
+#[derive(Default)]
+struct Stuck {
+    /// The time that does not advance.
+    time: f64,
+    /// Evaluations there.
+    count: usize,
+    /// Whether any evaluation failed since.
+    failed: bool,
+}
+
+impl Stuck {
+    /// Evaluations without progress that end an integration.
+    const LIMIT: usize = 100;
+
+    /// Takes note of one more evaluation.
+    fn note(&mut self, time: f64, step: f64) {
+        if time - step != time {
+            return;
+        }
+        if time != self.time {
+            *self = Self { time, count: 0, failed: false };
+        }
+        self.count += 1;
+    }
+
+    fn for_ever(&self) -> bool {
+        self.count > Self::LIMIT
+    }
 }
 
 impl Memory {
@@ -152,7 +186,8 @@ impl Memory {
 
     /// Integrates to `time` or to what ends the integration before, and returns the time reached. A panic of the system goes on here.
     pub fn advance(&mut self, system: &mut dyn System, time: f64) -> (f64, Result<(), IntegrationEnding>) {
-        let mut call = Call { system, events: self.found.len(), guard: Guard::default() };
+        let guard = Guard::default();
+        let mut call = Call { system, events: self.found.len(), guard, memory: self.raw, stuck: Stuck::default() };
         // where IDA refuses the call it reports no time
         let mut reached = self.time();
         // SAFETY: all handles are owned by self; `call` outlives IDASolve and is forgotten by IDA right after it.
@@ -162,7 +197,11 @@ impl Memory {
             IDASetUserData(self.raw, ptr::null_mut());
             code
         };
-        let error = call.guard.release();
+        let Call { stuck, guard, .. } = call;
+        let error = guard.release();
+        if stuck.for_ever() && !stuck.failed {
+            return (reached, Err(IntegrationEnding::ErrorTest));
+        }
         if code == IDA_RTFUNC_FAIL {
             reached = self.time();
             self.restore(reached);
@@ -256,8 +295,17 @@ fn accept(code: c_int, context: &Context) {
 extern "C" fn residual(time: f64, y: N_Vector, yd: N_Vector, residual: N_Vector, call: *mut c_void) -> c_int {
     // SAFETY: IDA passes the pointer set in `advance` and three different serial vectors that it leaves alone meanwhile.
     let (call, y, yd, residual) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries(yd), entries_mut(residual)) };
+    let mut step = 0.0;
+    // SAFETY: the integrator that calls.
+    unsafe { IDAGetCurrentStep(call.memory, &mut step) };
+    call.stuck.note(time, step);
+    if call.stuck.for_ever() {
+        return FATAL;
+    }
     let system = &mut *call.system;
-    call.guard.run(|| system.residual(time, y, yd, residual))
+    let code = call.guard.run(|| system.residual(time, y, yd, residual));
+    call.stuck.failed |= code != 0;
+    code
 }
 
 extern "C" fn jacobian(

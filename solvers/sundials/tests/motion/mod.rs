@@ -1,4 +1,5 @@
 //! Initial value problems with published or exact solutions, and a recorder of samples.
+#![allow(dead_code, reason = "each test binary uses a part")]
 
 mod systems;
 
@@ -81,11 +82,14 @@ pub fn grid(from: f64, to: f64, intervals: usize) -> Vec<f64> {
     (0..=intervals).map(|i| from + (to - from) * i as f64 / intervals as f64).collect()
 }
 
+/// A function of time and y.
+pub type Law = fn(f64, f64) -> Result<f64, EvalError>;
+
 /// One scalar equation ẏ = f(t, y), in both forms; `slope` is ∂f/∂y.
 pub struct Scalar {
-    pub rate: fn(f64, f64) -> Result<f64, EvalError>,
-    pub slope: fn(f64, f64) -> Result<f64, EvalError>,
-    pub event: Option<fn(f64, f64) -> Result<f64, EvalError>>,
+    pub rate: Law,
+    pub slope: Law,
+    pub event: Option<Law>,
     pub tolerance: f64,
 }
 

@@ -119,6 +119,7 @@ impl Pendulum {
     pub const IMPLICIT_START: ([f64; 6], [f64; 6]) = ([-1.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, -GRAVITY, 0.0, 0.0]);
 
     /// t, x and y from Jacobi's elliptic functions, <https://www.iftomm-multibody.org/benchmark>, problem A01.
+    #[allow(clippy::excessive_precision, reason = "as printed")]
     pub const EXACT: [(f64, [f64; 2]); 9] = [
         (0.0, [-1.0, 0.0]),
         (0.25, [-0.9536646122114010, -0.3008717457915883]),
@@ -226,9 +227,9 @@ impl OdeProblem for Pendulum {
 pub struct Arenstorf;
 
 impl Arenstorf {
-    #[expect(clippy::excessive_precision, reason = "as printed")]
+    #[allow(clippy::excessive_precision, reason = "as printed")]
     pub const START: [f64; 4] = [0.994, 0.0, 0.0, -2.001_585_106_379_082_522_405_378_622_24];
-    #[expect(clippy::excessive_precision, reason = "as printed")]
+    #[allow(clippy::excessive_precision, reason = "as printed")]
     pub const PERIOD: f64 = 17.065_216_560_157_962_558_891_720_624_9;
 }
 
