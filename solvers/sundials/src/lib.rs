@@ -1,12 +1,17 @@
-//! KINSOL behind the vocabulary of `problem`.
+//! KINSOL, IDA and ARKODE behind the vocabulary of `problem`.
 //!
 //! The C bindings are touched in the module `raw` only, which is also the only module of the workspace with `unsafe`
 //! code. What it hands out is safe: contexts, vectors, matrices and solvers free themselves, a panic inside a callback
 //! reaches the caller as a panic, and nothing is ever printed.
 
+mod erk;
 mod guard;
+mod ida;
 mod kinsol;
 mod raw;
+mod request;
 
+pub use erk::ExplicitRungeKutta;
+pub use ida::Ida;
 pub use kinsol::{Kinsol, Strategy};
 pub use raw::version;

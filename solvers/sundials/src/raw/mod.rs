@@ -4,8 +4,10 @@
 //! only a bundle that owns all of them (such as [`kinsol::Memory`]) may move to another.
 #![allow(unsafe_code)]
 
+pub mod arkode;
 mod context;
 mod dense;
+pub mod ida;
 pub mod kinsol;
 mod vector;
 

@@ -1,0 +1,338 @@
+//! One IDA integrator of fixed size, with everything that it refers to.
+
+use super::context::Context;
+use super::dense::{DenseSolver, matrix_entries_mut};
+use super::vector::{Vector, entries, entries_mut};
+use crate::guard::{FATAL, Guard};
+use problem::{EvalError, IntegrationEnding};
+use std::ffi::{c_int, c_long, c_void};
+use std::{ptr, slice};
+use sundials_sys::{
+    IDA_CONV_FAIL, IDA_ERR_FAIL, IDA_ILL_INPUT, IDA_LSETUP_FAIL, IDA_LSOLVE_FAIL, IDA_NORMAL, IDA_REP_RES_ERR, IDA_RES_FAIL,
+    IDA_ROOT_RETURN, IDA_RTFUNC_FAIL, IDA_SUCCESS, IDA_TOO_MUCH_ACC, IDA_TOO_MUCH_WORK, IDA_TSTOP_RETURN, IDACreate, IDAFree,
+    IDAGetCurrentStep, IDAGetCurrentTime, IDAGetDky, IDAGetLastLinFlag, IDAGetNumErrTestFails, IDAGetNumNonlinSolvIters,
+    IDAGetNumStepSolveFails, IDAGetNumSteps, IDAGetRootInfo, IDAInit, IDALS_JACFUNC_RECVR, IDALS_JACFUNC_UNRECVR, IDAReInit, IDARootInit,
+    IDASVtolerances, IDASetId, IDASetInitStep, IDASetJacFn, IDASetLinearSolver, IDASetMaxNumSteps, IDASetMaxStep, IDASetNoInactiveRootWarn,
+    IDASetStopTime, IDASetSuppressAlg, IDASetUserData, IDASolve, N_Vector, SUNMatrix,
+};
+
+/// What IDA calls back.
+pub trait System {
+    /// Writes F(t, y, ẏ).
+    fn residual(&mut self, time: f64, y: &[f64], yd: &[f64], residual: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes ∂F/∂y + c ∂F/∂ẏ, column after column.
+    fn jacobian(&mut self, time: f64, c: f64, y: &[f64], yd: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes the event functions.
+    fn events(&mut self, time: f64, y: &[f64], yd: &[f64], values: &mut [f64]) -> Result<(), EvalError>;
+}
+
+/// What one integration is asked for, beside the vectors that were written before.
+pub struct Request {
+    /// Time of the start.
+    pub time: f64,
+    /// Time that no step passes.
+    pub stop_time: f64,
+    /// Relative tolerance.
+    pub relative_tolerance: f64,
+    /// First step; zero leaves it to IDA.
+    pub first_step: f64,
+    /// Longest step.
+    pub max_step: f64,
+    /// Largest number of steps in one advance, above zero.
+    pub max_steps: usize,
+    /// Whether the error test leaves out the algebraic unknowns.
+    pub suppress_algebraic: bool,
+    /// Number of event functions.
+    pub events: usize,
+}
+
+/// What IDA counted since the start.
+#[derive(Default)]
+pub struct Statistics {
+    /// Steps taken.
+    pub steps: usize,
+    /// Steps rejected by the error test.
+    pub rejected: usize,
+    /// Steps rejected because the nonlinear iteration failed.
+    pub convergence_failures: usize,
+    /// Nonlinear iterations.
+    pub iterations: usize,
+}
+
+/// Owner of one IDA integrator and of all objects that it refers to.
+pub struct Memory {
+    raw: *mut c_void,
+    y: Vector,
+    yd: Vector,
+    tolerance: Vector,
+    differential: Vector,
+    found: Vec<c_int>,
+    _dense: DenseSolver,
+    context: Context,
+}
+
+// SAFETY: SUNDIALS ties nothing to a thread. The clones of the context, which are not thread-safe among each other, all
+// live in private fields of this one owner and move together.
+unsafe impl Send for Memory {}
+
+/// What the callbacks find behind the user data pointer while `IDASolve` runs.
+struct Call<'a> {
+    system: &'a mut dyn System,
+    events: usize,
+    guard: Guard,
+    /// The integrator itself.
+    memory: *mut c_void,
+    stuck: Stuck,
+}
+
+/// Watches for steps so short that rounding swallows them. A few are no harm, at a start for instance, but IDA goes on for ever.
+#[derive(Default)]
+struct Stuck {
+    /// The time that does not advance.
+    time: f64,
+    /// Evaluations there.
+    count: usize,
+    /// Whether any evaluation failed since.
+    failed: bool,
+}
+
+impl Stuck {
+    /// Evaluations without progress that end an integration.
+    const LIMIT: usize = 100;
+
+    /// Takes note of one more evaluation.
+    fn note(&mut self, time: f64, step: f64) {
+        if time - step != time {
+            return;
+        }
+        if time != self.time {
+            *self = Self { time, count: 0, failed: false };
+        }
+        self.count += 1;
+    }
+
+    fn for_ever(&self) -> bool {
+        self.count > Self::LIMIT
+    }
+}
+
+impl Memory {
+    /// An integrator for `size` unknowns, `size` above zero.
+    pub fn new(size: usize) -> Self {
+        assert!(size > 0, "a system of equations has at least one unknown");
+        let context = Context::new();
+        let zeros = || Vector::zeros(&context, size);
+        let (y, yd, tolerance, differential) = (zeros(), zeros(), zeros(), zeros());
+        let dense = DenseSolver::new(&context, &y);
+        // SAFETY: context, vectors, matrix and linear solver are alive and are owned by the result.
+        let raw = unsafe {
+            let raw = IDACreate(context.raw());
+            assert!(!raw.is_null(), "out of memory while creating an IDA integrator");
+            accept(IDAInit(raw, Some(residual), 0.0, y.raw(), yd.raw()), &context);
+            accept(IDASetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
+            accept(IDASetJacFn(raw, Some(jacobian)), &context);
+            accept(IDASetNoInactiveRootWarn(raw), &context);
+            raw
+        };
+        Self { raw, y, yd, tolerance, differential, found: Vec::new(), _dense: dense, context }
+    }
+
+    /// Number of unknowns.
+    pub fn size(&self) -> usize {
+        self.y.as_slice().len()
+    }
+
+    /// Unknowns and their rates: those of the start, to be written before it; afterwards those of the time reached.
+    pub fn state(&self) -> (&[f64], &[f64]) {
+        (self.y.as_slice(), self.yd.as_slice())
+    }
+
+    /// As [`Memory::state`].
+    pub fn state_mut(&mut self) -> (&mut [f64], &mut [f64]) {
+        (self.y.as_mut_slice(), self.yd.as_mut_slice())
+    }
+
+    /// Absolute tolerances, to be written before a start.
+    pub fn tolerance_mut(&mut self) -> &mut [f64] {
+        self.tolerance.as_mut_slice()
+    }
+
+    /// One for each unknown whose rate appears in F, zero for the others; to be written before a start.
+    pub fn differential_mut(&mut self) -> &mut [f64] {
+        self.differential.as_mut_slice()
+    }
+
+    /// Begins an integration at the state that was written. False where IDA does not accept the tolerances.
+    pub fn start(&mut self, request: &Request) -> bool {
+        let max_steps = c_long::try_from(request.max_steps).unwrap_or(c_long::MAX);
+        let events = c_int::try_from(request.events).expect("IDA counts events with an int");
+        self.found.clear();
+        self.found.resize(request.events, 0);
+        // SAFETY: all handles are owned by self; IDA copies state, tolerances and kinds.
+        unsafe {
+            accept(IDAReInit(self.raw, request.time, self.y.raw(), self.yd.raw()), &self.context);
+            accept(IDASetId(self.raw, self.differential.raw()), &self.context);
+            accept(IDASetSuppressAlg(self.raw, request.suppress_algebraic.into()), &self.context);
+            accept(IDASetStopTime(self.raw, request.stop_time), &self.context);
+            accept(IDASetInitStep(self.raw, request.first_step), &self.context);
+            accept(IDASetMaxStep(self.raw, request.max_step), &self.context);
+            accept(IDASetMaxNumSteps(self.raw, max_steps), &self.context);
+            // by way of none: for an unchanged number IDA would keep from the last run which functions were still at zero
+            accept(IDARootInit(self.raw, 0, None), &self.context);
+            accept(IDARootInit(self.raw, events, Some(event_functions)), &self.context);
+            IDASVtolerances(self.raw, request.relative_tolerance, self.tolerance.raw()) == IDA_SUCCESS
+        }
+    }
+
+    /// Integrates to `time` or to what ends the integration before, and returns the time reached. A panic of the system goes on here.
+    pub fn advance(&mut self, system: &mut dyn System, time: f64) -> (f64, Result<(), IntegrationEnding>) {
+        let guard = Guard::default();
+        let mut call = Call { system, events: self.found.len(), guard, memory: self.raw, stuck: Stuck::default() };
+        // where IDA refuses the call it reports no time
+        let mut reached = self.time();
+        // SAFETY: all handles are owned by self; `call` outlives IDASolve and is forgotten by IDA right after it.
+        let code = unsafe {
+            accept(IDASetUserData(self.raw, ptr::from_mut(&mut call).cast()), &self.context);
+            let code = IDASolve(self.raw, time, &mut reached, self.y.raw(), self.yd.raw(), IDA_NORMAL);
+            IDASetUserData(self.raw, ptr::null_mut());
+            code
+        };
+        let Call { stuck, guard, .. } = call;
+        let error = guard.release();
+        if stuck.for_ever() && !stuck.failed {
+            return (reached, Err(IntegrationEnding::ErrorTest));
+        }
+        if code == IDA_RTFUNC_FAIL {
+            reached = self.time();
+            self.restore(reached);
+        }
+        (reached, self.meaning(code, error))
+    }
+
+    /// What IDA counted since the start.
+    pub fn statistics(&self) -> Statistics {
+        let count = |get: unsafe extern "C" fn(*mut c_void, *mut c_long) -> c_int| {
+            let mut count: c_long = 0;
+            // SAFETY: `raw` is a living integrator.
+            unsafe { get(self.raw, &mut count) };
+            usize::try_from(count).unwrap_or(0)
+        };
+        Statistics {
+            steps: count(IDAGetNumSteps),
+            rejected: count(IDAGetNumErrTestFails),
+            convergence_failures: count(IDAGetNumStepSolveFails),
+            iterations: count(IDAGetNumNonlinSolvIters),
+        }
+    }
+
+    /// End of the last step.
+    fn time(&self) -> f64 {
+        let mut time = 0.0;
+        // SAFETY: `raw` is a living integrator.
+        unsafe { IDAGetCurrentTime(self.raw, &mut time) };
+        time
+    }
+
+    /// Takes the state at the end of the last step, where IDA has not done so.
+    fn restore(&mut self, time: f64) {
+        if self.statistics().steps > 0 {
+            // SAFETY: `raw` is a living integrator and the vectors have its size.
+            unsafe {
+                IDAGetDky(self.raw, time, 0, self.y.raw());
+                IDAGetDky(self.raw, time, 1, self.yd.raw());
+            }
+        }
+    }
+
+    /// Meaning of a return code of `IDASolve`.
+    fn meaning(&mut self, code: c_int, error: Option<EvalError>) -> Result<(), IntegrationEnding> {
+        let evaluation = |otherwise| error.map_or(otherwise, IntegrationEnding::Evaluation);
+        Err(match code {
+            IDA_SUCCESS | IDA_TSTOP_RETURN => return Ok(()),
+            IDA_ROOT_RETURN => self.event(),
+            IDA_TOO_MUCH_WORK => IntegrationEnding::TooManySteps,
+            IDA_ERR_FAIL => IntegrationEnding::ErrorTest,
+            IDA_CONV_FAIL | IDA_LSETUP_FAIL | IDA_LSOLVE_FAIL => match self.linear_flag() {
+                IDALS_JACFUNC_RECVR | IDALS_JACFUNC_UNRECVR => evaluation(IntegrationEnding::Convergence),
+                0 => IntegrationEnding::Convergence,
+                _ => IntegrationEnding::Singular,
+            },
+            IDA_RES_FAIL | IDA_REP_RES_ERR | IDA_RTFUNC_FAIL => evaluation(IntegrationEnding::Convergence),
+            IDA_ILL_INPUT | IDA_TOO_MUCH_ACC => IntegrationEnding::Refused,
+            refusal => panic!("IDA refused with code {refusal}: {}", self.context.message()),
+        })
+    }
+
+    /// The event function whose root was found, the first where there are several.
+    fn event(&mut self) -> IntegrationEnding {
+        // SAFETY: `raw` is a living integrator, and the array has one entry per event function.
+        unsafe { IDAGetRootInfo(self.raw, self.found.as_mut_ptr()) };
+        let event = self.found.iter().position(|&direction| direction != 0).unwrap_or(0);
+        IntegrationEnding::Event { event, rising: self.found[event] > 0 }
+    }
+
+    /// What the linear solver said last: zero, a failure of the Jacobian, or a column without a pivot.
+    fn linear_flag(&self) -> c_int {
+        let mut flag: c_long = 0;
+        // SAFETY: `raw` is a living integrator.
+        unsafe { IDAGetLastLinFlag(self.raw, &mut flag) };
+        c_int::try_from(flag).unwrap_or(c_int::MAX)
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        // SAFETY: created by IDACreate and freed once, before the objects that it refers to.
+        unsafe { IDAFree(&mut self.raw) }
+    }
+}
+
+/// Holds the set-up calls to their contract: they fail only for arguments that this module never passes, or without memory.
+fn accept(code: c_int, context: &Context) {
+    assert!(code == IDA_SUCCESS, "IDA refused its set-up with code {code}: {}", context.message());
+}
+
+extern "C" fn residual(time: f64, y: N_Vector, yd: N_Vector, residual: N_Vector, call: *mut c_void) -> c_int {
+    // SAFETY: IDA passes the pointer set in `advance` and three different serial vectors that it leaves alone meanwhile.
+    let (call, y, yd, residual) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries(yd), entries_mut(residual)) };
+    let mut step = 0.0;
+    // SAFETY: the integrator that calls.
+    unsafe { IDAGetCurrentStep(call.memory, &mut step) };
+    call.stuck.note(time, step);
+    if call.stuck.for_ever() {
+        return FATAL;
+    }
+    let system = &mut *call.system;
+    let code = call.guard.run(|| system.residual(time, y, yd, residual));
+    call.stuck.failed |= code != 0;
+    code
+}
+
+extern "C" fn jacobian(
+    time: f64,
+    c: f64,
+    y: N_Vector,
+    yd: N_Vector,
+    _residual: N_Vector,
+    matrix: SUNMatrix,
+    call: *mut c_void,
+    _: N_Vector,
+    _: N_Vector,
+    _: N_Vector,
+) -> c_int {
+    // SAFETY: IDA passes the pointer set in `advance`, serial vectors and the dense matrix, and leaves them alone meanwhile.
+    let (call, y, yd, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries(yd), matrix_entries_mut(matrix)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.jacobian(time, c, y, yd, matrix))
+}
+
+extern "C" fn event_functions(time: f64, y: N_Vector, yd: N_Vector, values: *mut f64, call: *mut c_void) -> c_int {
+    // SAFETY: IDA passes the pointer set in `advance`, two serial vectors and an array of as many entries as there are events.
+    let (call, y, yd, values) = unsafe {
+        let call = &mut *call.cast::<Call<'_>>();
+        let events = call.events;
+        (call, entries(y), entries(yd), slice::from_raw_parts_mut(values, events))
+    };
+    let system = &mut *call.system;
+    call.guard.run(|| system.events(time, y, yd, values))
+}
