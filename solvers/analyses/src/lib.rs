@@ -1,12 +1,18 @@
 //! Analyses as services: they know signals and problem traits, never an engine and never a trade.
 //!
-//! [`trim`] finds steady states by inverse dynamics; [`expression`] is the small language in which conditions are written.
+//! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them,
+//! [`mod@eigen`] their eigenvalues; [`expression`] is the small language in
+//! which conditions are written.
 
 #![allow(non_snake_case)]
 
+pub mod eigen;
 pub mod expression;
+pub mod linearize;
 pub mod trim;
 pub mod variable;
 
+pub use eigen::{EigenError, Spectrum, eigen};
 pub use expression::{Expression, ExpressionError};
+pub use linearize::{LinearModel, LinearizeError, linearize};
 pub use variable::{Variable, Variables};
