@@ -57,6 +57,13 @@ struct Point {
     events: Vec<f64>,
 }
 
+/// An end of the bracket around a root.
+#[derive(PartialEq)]
+enum End {
+    Before,
+    Beyond,
+}
+
 /// Rates at the end of the last step; the next step, and the sample there, need not evaluate them again.
 struct Rates {
     time: f64,
@@ -207,6 +214,7 @@ impl Run<'_> {
     fn event(&mut self) -> Result<IntegrationEnding, IntegrationEnding> {
         swap(self.after, self.beyond);
         let (mut weight_before, mut weight_beyond) = (1.0, 1.0);
+        let mut moved = None;
         loop {
             let width = self.beyond.time - self.before.time;
             let resolution = resolution(self.before.time, self.beyond.time);
@@ -218,15 +226,17 @@ impl Run<'_> {
             let step = (share * width).clamp(0.5 * resolution, width - 0.5 * resolution);
             self.memory.resume(self.before.time, &self.before.y, step);
             self.step(self.before.time + step)?;
-            // an end that stays twice loses half of its weight
+            // an end that stays twice in a row loses half of its weight
             if crossed(self.before, self.after).is_some() {
                 swap(self.beyond, self.after);
-                weight_before *= 0.5;
                 weight_beyond = 1.0;
+                weight_before *= if moved == Some(End::Beyond) { 0.5 } else { 1.0 };
+                moved = Some(End::Beyond);
             } else {
                 swap(self.before, self.after);
-                weight_beyond *= 0.5;
                 weight_before = 1.0;
+                weight_beyond *= if moved == Some(End::Before) { 0.5 } else { 1.0 };
+                moved = Some(End::Before);
             }
         }
         let event = crossed(self.before, self.beyond).unwrap_or(0);
