@@ -39,6 +39,7 @@ impl Written {
             nominal: 1.0,
             absolute_tolerance: 1e-8,
             design: 0.0,
+            start: None,
         }));
         self
     }
