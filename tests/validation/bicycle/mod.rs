@@ -1,9 +1,10 @@
 //! The benchmark bicycle `whipple`: linear equations, eigenvalues, one published nonlinear state, one published motion.
 
+mod dynamics;
 mod signs;
 mod source;
 
 use validation::evidence::Row;
 
 /// Rows of the table.
-pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE];
+pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE];
