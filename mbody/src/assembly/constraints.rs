@@ -2,10 +2,12 @@
 
 use super::elements::FrameDescription;
 use super::{PointDescription, Site};
-use crate::constraint::{Constraint, ConstraintLaw, CutJoint, CutKind, Distance, HeldPoint, Place, Rolling, SurfaceContact};
+use crate::constraint::{
+    Constraint, ConstraintLaw, CutJoint, CutKind, Distance, HeldPoint, Place, PrescribedMotion, Rolling, SurfaceContact,
+};
 use crate::contact::Profile;
 use crate::description::finding::Finding;
-use crate::description::quantity::dimension::{Angle, Length};
+use crate::description::quantity::dimension::{Angle, AngularSpeed, Length, Speed};
 use crate::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
 use crate::model::{BodyIndex, BuildError, ModelBuilder};
 use crate::spatial::{Pose, Rotation, Vec3};
@@ -92,8 +94,11 @@ pub const STANDARD_CONSTRAINTS: &[ConstraintKind] = &[
     ConstraintKind::of::<PointOnLineDescription>(),
     ConstraintKind::of::<PointOnPlaneDescription>(),
     ConstraintKind::of::<GearDescription>(),
+    ConstraintKind::of::<RackDescription>(),
     ConstraintKind::of::<RollingDescription>(),
     ConstraintKind::of::<SurfaceContactDescription>(),
+    ConstraintKind::of::<PrescribedMotionDescription>(),
+    ConstraintKind::of::<PrescribedSlideDescription>(),
 ];
 
 fn held<L: ConstraintLaw>(site: &Site<'_>, from: (BodyIndex, Pose<f64>), to: (BodyIndex, Pose<f64>), law: L) -> Constraint {
@@ -292,15 +297,15 @@ impl ConstraintDescription for PointOnPlaneDescription {
     }
 }
 
-/// A joint that follows another one.
+/// A joint that follows another one of its kind.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearDescription {
-    /// The joint that follows; it has one coordinate.
+    /// The joint that follows; it turns.
     joint: String,
-    /// The joint that leads; it has one coordinate.
+    /// The joint that leads; it turns.
     leader: String,
-    /// Speed of the follower per speed of the leader: a number between joints of one kind, m/rad for a rack on a pinion.
+    /// Speed of the follower per speed of the leader, negative where they turn against each other.
     ratio: f64,
     /// Angle of the follower where the leader is at zero.
     offset: Option<Quantity<Angle>>,
@@ -308,13 +313,41 @@ pub struct GearDescription {
 
 impl ConstraintDescription for GearDescription {
     const KIND: &'static str = "gear";
-    const ABOUT: &'static str = "a joint that follows another one at a fixed ratio (gears, rack and pinion), without a multiplier";
-    const EXAMPLE: &'static str = "{ joint: hinge, leader: slider, ratio: 2.5 }";
+    const ABOUT: &'static str = "a joint that turns with another one at a fixed ratio, without a multiplier";
+    const EXAMPLE: &'static str = "{ joint: front_axle, leader: rear_axle, ratio: 1.05 }";
     fn couple(&self, builder: &mut ModelBuilder) -> Result<(), BuildError> {
         builder.follow(&self.joint, &self.leader, self.ratio, self.offset.map_or(0.0, Quantity::si))
     }
-    fn assemble(self, _site: &mut Site<'_>) -> Option<Constraint> {
-        None
+    fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
+        let both = (site.joint_with("joint", &self.joint, "rad"), site.joint_with("leader", &self.leader, "rad"));
+        both.0.and(both.1).and(None)
+    }
+}
+
+/// A rack on a pinion.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RackDescription {
+    /// The joint that follows; it slides.
+    joint: String,
+    /// The joint that leads; it turns.
+    leader: String,
+    /// Travel of the follower per radian of the leader: the radius of the pinion.
+    advance: Quantity<Length>,
+    /// Travel of the follower where the leader is at zero.
+    offset: Option<Quantity<Length>>,
+}
+
+impl ConstraintDescription for RackDescription {
+    const KIND: &'static str = "rack";
+    const ABOUT: &'static str = "a joint that slides as another one turns (rack and pinion, spindle), without a multiplier";
+    const EXAMPLE: &'static str = "{ joint: slider, leader: pivot, advance: 20 mm }";
+    fn couple(&self, builder: &mut ModelBuilder) -> Result<(), BuildError> {
+        builder.follow(&self.joint, &self.leader, self.advance.si(), self.offset.map_or(0.0, Quantity::si))
+    }
+    fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
+        let both = (site.joint_with("joint", &self.joint, "m"), site.joint_with("leader", &self.leader, "rad"));
+        both.0.and(both.1).and(None)
     }
 }
 
@@ -375,5 +408,55 @@ impl ConstraintDescription for SurfaceContactDescription {
     fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
         let (place, profile, axis) = self.0.round_body(site)?;
         Some(held(site, (BodyIndex::WORLD, Pose::identity()), place, SurfaceContact::new(profile, axis)))
+    }
+}
+
+/// Prescribed angle.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PrescribedMotionDescription {
+    /// Name of a joint that turns.
+    joint: String,
+    /// Angle at the start; 0 where left out.
+    position: Option<Quantity<Angle>>,
+    /// Constant speed; 0 where left out.
+    speed: Option<Quantity<AngularSpeed>>,
+}
+
+impl ConstraintDescription for PrescribedMotionDescription {
+    const KIND: &'static str = "prescribed_motion";
+    const ABOUT: &'static str =
+        "a joint that turns as prescribed: at constant speed, plus the inputs `<name>.position`, `.speed`, `.acceleration`";
+    const EXAMPLE: &'static str = "{ joint: hinge, position: 0.1 rad, speed: 2 rad/s }";
+    fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
+        let joint = site.joint_with("joint", &self.joint, "rad")?;
+        let drive =
+            PrescribedMotion { joint, position: self.position.map_or(0.0, Quantity::si), speed: self.speed.map_or(0.0, Quantity::si) };
+        Some(Constraint::drive(site.element(), site.model(), drive))
+    }
+}
+
+/// Prescribed travel.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PrescribedSlideDescription {
+    /// Name of a joint that slides.
+    joint: String,
+    /// Travel at the start; 0 where left out.
+    position: Option<Quantity<Length>>,
+    /// Constant speed; 0 where left out.
+    speed: Option<Quantity<Speed>>,
+}
+
+impl ConstraintDescription for PrescribedSlideDescription {
+    const KIND: &'static str = "prescribed_slide";
+    const ABOUT: &'static str =
+        "a joint that slides as prescribed: at constant speed, plus the inputs `<name>.position`, `.speed`, `.acceleration`";
+    const EXAMPLE: &'static str = "{ joint: slider, position: 10 mm, speed: 0.2 m/s }";
+    fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
+        let joint = site.joint_with("joint", &self.joint, "m")?;
+        let drive =
+            PrescribedMotion { joint, position: self.position.map_or(0.0, Quantity::si), speed: self.speed.map_or(0.0, Quantity::si) };
+        Some(Constraint::drive(site.element(), site.model(), drive))
     }
 }

@@ -12,9 +12,13 @@
 //!
 //! Source: A. A. Shabana, *Dynamics of Multibody Systems*, 3rd ed. 2005, chapter 3; rates and forces by automatic differentiation are ours.
 
+use super::prescribed_motion::PrescribedMotion;
+use super::relative::relative_motion;
 use crate::model::{BodyIndex, Model};
 use crate::scalar::{Dual, Family, Jet, Make, PerScalar, Real, SystemScalar};
 use crate::spatial::{Pose, Rotation, Twist, Vec3, Wrench};
+use crate::stage::Workspace;
+use problem::Signal;
 use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
@@ -214,15 +218,37 @@ pub struct Place {
     pub X_BF: Pose<f64>,
 }
 
+/// What is at work in a constraint.
+enum Kind {
+    /// A law on the relative motion of the two frames.
+    Law { positions: usize, spin_axis: Option<Vec3<f64>>, twins: PerScalar<Twins> },
+    /// A prescribed coordinate of the joint between the two.
+    Drive(PrescribedMotion),
+}
+
+/// When a constraint is evaluated, and with which inputs of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<S> {
+    /// Time, s.
+    pub time: f64,
+    /// Inputs, in the order in which the constraint declares them.
+    pub inputs: [S; 3],
+}
+
+impl<S: Real> Moment<S> {
+    /// A time with inputs at zero.
+    pub fn at(time: f64) -> Self {
+        Self { time, inputs: [S::zero(); 3] }
+    }
+}
+
 /// Any constraint between two frames.
 pub struct Constraint {
     name: String,
     from: Place,
     to: Place,
     rows: Vec<RowDeclared>,
-    positions: usize,
-    spin_axis: Option<Vec3<f64>>,
-    twins: PerScalar<Twins>,
+    kind: Kind,
     text: String,
 }
 
@@ -243,7 +269,24 @@ impl Constraint {
         assert!(rows.len() <= MAX_ROWS, "a constraint has at most {MAX_ROWS} rows");
         assert!(rows[positions..].iter().all(|r| r.level == Level::Velocity), "rows on coordinates come first");
         let spin_axis = law.spin_axis();
-        Self { name: name.into(), from, to, rows, positions, spin_axis, twins: PerScalar::new(&Maker(Arc::new(law))), text }
+        let kind = Kind::Law { positions, spin_axis, twins: PerScalar::new(&Maker(Arc::new(law))) };
+        Self { name: name.into(), from, to, rows, kind, text }
+    }
+
+    /// A prescribed coordinate of the joint that carries a body, under the name the user gave.
+    pub fn drive(name: impl Into<String>, model: &Model, drive: PrescribedMotion) -> Self {
+        let (body, text) = (model.body(drive.joint), format!("{drive:?}"));
+        let from = Place { body: body.parent, X_BF: body.X_PF };
+        let to = Place { body: drive.joint, X_BF: Pose::identity() };
+        Self { name: name.into(), from, to, rows: vec![drive.row(model)], kind: Kind::Drive(drive), text }
+    }
+
+    /// Inputs that the constraint reads: name, unit and sentence of each, in the order of [`Moment::inputs`]; each is the rate of the one before.
+    pub fn inputs(&self, model: &Model) -> Vec<Signal> {
+        match &self.kind {
+            Kind::Law { .. } => Vec::new(),
+            Kind::Drive(drive) => drive.inputs(&self.name, model),
+        }
     }
 
     /// Name in the description.
@@ -268,24 +311,46 @@ impl Constraint {
 
     /// The body on whose joint angle nothing depends because of this constraint: it turns about the axis of a wheel.
     pub fn spinning(&self, model: &Model) -> Option<BodyIndex> {
-        let body = model.body(self.to.body);
-        let (axis, joint) = (self.to.X_BF.R * self.spin_axis?, body.joint.rotation_axis()?);
+        let Kind::Law { spin_axis: Some(axis), .. } = self.kind else { return None };
+        let (axis, joint) = (self.to.X_BF.R * axis, model.body(self.to.body).joint.rotation_axis()?);
         // in line with the joint, and the center on its axis
         let in_line = (axis - joint).norm().min((axis + joint).norm()) < 1e-9;
         let aside = self.to.X_BF.p.cross(joint).norm();
         (in_line && aside < 1e-9).then_some(self.to.body)
     }
 
-    /// Error, rate and acceleration of each row along a motion. Allocates nothing.
+    /// Evaluates all rows and the wrenches of their unit multipliers at the motion in the stages of `w`, all of which must be filled.
+    ///
+    /// Returns the pose of the second frame in the first. Wrenches act on the second frame, in its axes about its origin; the first
+    /// gets the opposite. Allocates nothing.
     #[inline]
-    pub fn evaluate<S: SystemScalar>(&self, motion: &RelativeMotion<S>, rows: &mut [RowValue<S>]) {
-        S::pick(&self.twins).evaluate(self.positions, motion, rows);
+    pub fn observe<S: SystemScalar>(
+        &self,
+        model: &Model,
+        w: &Workspace<S>,
+        moment: &Moment<S>,
+        rows: &mut [RowValue<S>],
+        directions: &mut [Wrench<S>],
+    ) -> Pose<S> {
+        let motion = relative_motion(model, w, self);
+        match &self.kind {
+            Kind::Law { positions, twins, .. } => {
+                let twin = S::pick(twins);
+                twin.evaluate(*positions, &motion, rows);
+                twin.directions(*positions, &motion.X_FM, directions);
+            }
+            Kind::Drive(drive) => (rows[0], directions[0]) = drive.observe(model, w, moment),
+        }
+        motion.X_FM
     }
 
-    /// Wrench of a unit multiplier of each row on the second frame, in its axes about its origin; the first frame gets the opposite.
-    /// Allocates nothing.
-    #[inline]
-    pub fn directions<S: SystemScalar>(&self, X_FM: &Pose<S>, rows: &mut [Wrench<S>]) {
-        S::pick(&self.twins).directions(self.positions, X_FM, rows);
+    /// Error, rate and acceleration of each row along a motion, and wrenches of unit multipliers, of a law on two frames.
+    #[cfg(test)]
+    pub(super) fn of_motion(&self, motion: &RelativeMotion<f64>, rows: &mut [RowValue<f64>], directions: &mut [Wrench<f64>]) {
+        if let Kind::Law { positions, twins, .. } = &self.kind {
+            let twin = f64::pick(twins);
+            twin.evaluate(*positions, motion, rows);
+            twin.directions(*positions, &motion.X_FM, directions);
+        }
     }
 }

@@ -69,7 +69,7 @@ fn paths() -> impl Iterator<Item = Path> {
 
 fn values(c: &Constraint, motion: &RelativeMotion<f64>) -> Vec<RowValue<f64>> {
     let mut rows = vec![RowValue::default(); c.rows().len()];
-    c.evaluate(motion, &mut rows);
+    c.of_motion(motion, &mut rows, &mut vec![Wrench::zero(); c.rows().len()]);
     rows
 }
 
@@ -100,7 +100,7 @@ fn the_power_of_a_unit_multiplier_is_the_rate_of_its_row() {
             let motion = path.motion(0.0);
             let rows = values(&c, &motion);
             let mut wrenches = vec![Wrench::zero(); rows.len()];
-            c.directions(&motion.X_FM, &mut wrenches);
+            c.of_motion(&motion, &mut rows.clone(), &mut wrenches);
             for (row, F) in rows.iter().zip(&wrenches) {
                 let power = motion.V_FM.dot(*F);
                 assert!((power - row.rate).abs() < 1e-12 * (1.0 + power.abs()), "{c:?}");
@@ -139,7 +139,7 @@ fn a_wheel_that_rolls_straight_does_not_slip() {
     let rows = values(&c, &motion);
     assert!(rows.iter().all(|r| r.error.abs() < 1e-15 && r.rate.abs() < 1e-14));
     let mut wrenches = [Wrench::zero(); 3];
-    c.directions(&X_FM, &mut wrenches);
+    c.of_motion(&motion, &mut rows.clone(), &mut wrenches);
     // the normal force points up, through the center
     assert!((X_FM.R * wrenches[0].f - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-15 && wrenches[0].n.norm() < 1e-15);
     // the longitudinal force points forward and brakes the spin

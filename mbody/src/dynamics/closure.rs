@@ -9,7 +9,7 @@
 //! rank by Gram–Schmidt with pivoting: G. H. Golub, C. F. Van Loan, *Matrix Computations*, section 5.4.
 
 use crate::algorithm::kinematics;
-use crate::constraint::{Constraint, Level, RelativeMotion, RowValue, relative_motion};
+use crate::constraint::{Constraint, Level, Moment, RowValue};
 use crate::model::{BodyIndex, Model};
 use crate::spatial::{Pose, Wrench};
 use crate::stage::Workspace;
@@ -38,12 +38,23 @@ pub(super) struct Work {
     w: Workspace<f64>,
     values: Vec<RowValue<f64>>,
     directions: Vec<Wrench<f64>>,
+    /// [constraints] time and inputs of each.
+    moments: Vec<Moment<f64>>,
+    /// [constraints] pose of the second frame in the first.
+    poses: Vec<Pose<f64>>,
 }
 
 impl Work {
     pub(super) fn new(model: &Model, constraints: &[Constraint]) -> Self {
         let rows = constraints.iter().map(|c| c.rows().len()).sum();
-        Self { w: Workspace::new(model), values: vec![RowValue::default(); rows], directions: vec![Wrench::zero(); rows] }
+        let n = constraints.len();
+        Self {
+            w: Workspace::new(model),
+            values: vec![RowValue::default(); rows],
+            directions: vec![Wrench::zero(); rows],
+            moments: vec![Moment::at(0.0); n],
+            poses: vec![Pose::identity(); n],
+        }
     }
 }
 
@@ -90,6 +101,14 @@ impl<'a> Closure<'a> {
         Self { model, constraints, work }
     }
 
+    /// Sets time and inputs; `inputs` are the indices in u of the inputs of each constraint.
+    pub(super) fn at_moment(&mut self, time: f64, u: &[f64], inputs: &[Vec<usize>]) {
+        for (moment, indices) in self.work.moments.iter_mut().zip(inputs) {
+            moment.time = time;
+            moment.inputs.iter_mut().zip(indices).for_each(|(x, &i)| *x = u[i]);
+        }
+    }
+
     /// Gives the work arrays back.
     pub(super) fn into_work(self) -> Work {
         self.work
@@ -102,7 +121,7 @@ impl<'a> Closure<'a> {
 
     /// Evaluates all rows at independent coordinates and velocities; accelerations are zero.
     pub fn evaluate(&mut self, q: &[f64], v: &[f64]) {
-        let (model, w) = (self.model, &mut self.work.w);
+        let (model, Work { w, values, directions, moments, poses }) = (self.model, &mut self.work);
         model.layout.expand_q(q, &mut w.position.q);
         model.layout.expand_v(v, &mut w.velocity.v);
         w.acceleration.vd.fill(0.0);
@@ -111,17 +130,15 @@ impl<'a> Closure<'a> {
         kinematics::velocity(model, &w.position, &mut w.velocity);
         kinematics::acceleration(model, &w.position, &w.velocity, &mut w.acceleration);
         let mut first = 0;
-        for c in self.constraints {
+        for ((c, moment), X_FM) in self.constraints.iter().zip(moments).zip(poses) {
             let rows = first..first + c.rows().len();
             first = rows.end;
-            let motion: RelativeMotion<f64> = relative_motion(model, w, c);
-            c.evaluate(&motion, &mut self.work.values[rows.clone()]);
-            c.directions(&motion.X_FM, &mut self.work.directions[rows]);
+            *X_FM = c.observe(model, w, moment, &mut values[rows.clone()], &mut directions[rows]);
         }
     }
 
     /// Position of a row among all.
-    fn at(&self, (constraint, row): (usize, usize)) -> usize {
+    fn index(&self, (constraint, row): (usize, usize)) -> usize {
         self.constraints[..constraint].iter().map(|c| c.rows().len()).sum::<usize>() + row
     }
 
@@ -131,7 +148,7 @@ impl<'a> Closure<'a> {
 
     /// The value of a row at the last evaluated point.
     pub fn value(&self, row: (usize, usize)) -> RowValue<f64> {
-        self.work.values[self.at(row)]
+        self.work.values[self.index(row)]
     }
 
     /// Jacobian of rows over independent velocities at the last evaluated point.
@@ -141,8 +158,7 @@ impl<'a> Closure<'a> {
         let (mut tree, mut independent) = (vec![0.0; model.layout.tree_nv], vec![0.0; nv]);
         for (i, &row) in rows.iter().enumerate() {
             let c = &self.constraints[row.0];
-            let X_FM = relative_motion(model, &self.work.w, c).X_FM;
-            tree_row(model, &self.work.w, c, &X_FM, self.work.directions[self.at(row)], &mut tree);
+            tree_row(model, &self.work.w, c, &self.work.poses[row.0], self.work.directions[self.index(row)], &mut tree);
             model.layout.reduce(&mut tree, &mut independent);
             J.row_mut(i).copy_from_slice(&independent);
         }

@@ -6,10 +6,10 @@
 use super::System;
 use super::form::{Form, Formulation};
 use crate::algorithm::{energy, kinematics, rnea::rnea};
-use crate::constraint::{Level, RowValue, apply_wrench, relative_motion};
+use crate::constraint::{Level, Moment, RowValue, apply_wrench};
 use crate::force::{Effort, Energy, Evaluated};
 use crate::scalar::{Family, Make, SystemScalar};
-use crate::spatial::Wrench;
+use crate::spatial::{Pose, Wrench};
 use crate::stage::Workspace;
 
 /// Arguments and results of one evaluation. Allocated once per plant and scalar.
@@ -34,6 +34,8 @@ pub struct Evaluation<S> {
     pub(super) rows: Vec<RowValue<S>>,
     /// [rows of all constraints] wrench of a unit multiplier on the second frame.
     pub(super) directions: Vec<Wrench<S>>,
+    /// \[constraints\] pose of the second frame in the first.
+    pub(super) poses: Vec<Pose<S>>,
     /// \[bodies\] wrenches of the stabilizing multipliers.
     pull: Vec<Wrench<S>>,
     /// [tree nv] `v + Jᵀ μ`.
@@ -68,6 +70,7 @@ impl Make<Evaluations> for Maker<'_> {
             joint_efforts: zeros(nv),
             rows: vec![RowValue::default(); rows],
             directions: vec![Wrench::zero(); rows],
+            poses: vec![Pose::identity(); system.constraints.len()],
             pull: vec![Wrench::zero(); if stabilized { system.model.bodies.len() } else { 0 }],
             corrected: zeros(if stabilized { nv } else { 0 }),
         }
@@ -140,9 +143,10 @@ impl<S: SystemScalar> Evaluation<S> {
         for (c, constraint) in system.constraints.iter().enumerate() {
             let rows = first_row..first_row + constraint.rows().len();
             first_row = rows.end;
-            let motion = relative_motion(model, w, constraint);
-            constraint.evaluate(&motion, &mut self.rows[rows.clone()]);
-            constraint.directions(&motion.X_FM, &mut self.directions[rows.clone()]);
+            let mut moment = Moment::at(self.time);
+            moment.inputs.iter_mut().zip(&system.constraint_inputs[c]).for_each(|(x, &i)| *x = self.u[i]);
+            let X_FM = constraint.observe(model, w, &moment, &mut self.rows[rows.clone()], &mut self.directions[rows.clone()]);
+            self.poses[c] = X_FM;
             let (mut F, mut G) = (Wrench::zero(), Wrench::zero());
             while let Some(m) = system.multipliers.get(k).filter(|m| m.constraint == c) {
                 let direction = self.directions[rows.start + m.row];
@@ -156,9 +160,9 @@ impl<S: SystemScalar> Evaluation<S> {
                 }
                 k += 1;
             }
-            apply_wrench(constraint, &motion.X_FM, F, &mut w.applied);
+            apply_wrench(constraint, &X_FM, F, &mut w.applied);
             if form.formulation == Formulation::Ggl {
-                apply_wrench(constraint, &motion.X_FM, G, &mut self.pull);
+                apply_wrench(constraint, &X_FM, G, &mut self.pull);
             }
         }
         if form.formulation == Formulation::Ggl {

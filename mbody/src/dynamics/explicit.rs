@@ -12,7 +12,6 @@
 use super::closure::tree_row;
 use super::{Formulation, System, TreePlant};
 use crate::algorithm::crba::crba;
-use crate::constraint::relative_motion;
 use nalgebra::{DMatrix, DVector};
 use problem::{At, Dae, Differentiable, EvalError, Matrix, Seeds};
 use std::sync::Arc;
@@ -155,8 +154,8 @@ impl Direct {
             let constraint = &system.constraints[multiplier.constraint];
             let first: usize = system.constraints[..multiplier.constraint].iter().map(|c| c.rows().len()).sum();
             let at = first + multiplier.row;
-            let X_FM = relative_motion(&system.model, &e.tree, constraint).X_FM;
-            tree_row(&system.model, &e.tree, constraint, &X_FM, e.directions[at], &mut self.tree_row);
+            let X_FM = &e.poses[multiplier.constraint];
+            tree_row(&system.model, &e.tree, constraint, X_FM, e.directions[at], &mut self.tree_row);
             system.model.layout.reduce(&mut self.tree_row, &mut self.row);
             for (j, entry) in self.row.iter().enumerate() {
                 self.matrix[(nv + k, j)] = scale * entry;

@@ -217,13 +217,14 @@ fn held_in_position(system: &System, held: &[bool]) -> Vec<bool> {
 }
 
 impl Projection for TreePlant {
-    fn project(&mut self, _time: f64, y: &mut [f64], _u: &[f64], held: &[bool]) -> Result<(), ProjectionError> {
+    fn project(&mut self, time: f64, y: &mut [f64], u: &[f64], held: &[bool]) -> Result<(), ProjectionError> {
         if self.system.constraints.is_empty() {
             return Ok(());
         }
         let system = self.system.clone();
         let work = self.closure.take().unwrap_or_else(|| Work::new(&system.model, &system.constraints));
         let mut closure = Closure::with(&system.model, &system.constraints, work);
+        closure.at_moment(time, u, &system.constraint_inputs);
         let (q, rest) = y.split_at_mut(system.model.layout.nq());
         let v = &mut rest[..system.model.layout.nv()];
         let of_velocities = held.get(q.len()..q.len() + v.len()).unwrap_or_default();

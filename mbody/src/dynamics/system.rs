@@ -97,6 +97,8 @@ pub struct System {
     pub(crate) elements: Vec<Element>,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) multipliers: Vec<Multiplier>,
+    /// [constraints] indices of the inputs of each.
+    pub(crate) constraint_inputs: Vec<Vec<usize>>,
     pub(crate) base_unknowns: Vec<Unknown>,
     pub(crate) base_equations: Vec<Equation>,
     pub(crate) form: Arc<Form>,
@@ -130,6 +132,7 @@ impl System {
             elements: Vec::with_capacity(forces.len()),
             constraints: closed.constraints,
             multipliers: Vec::new(),
+            constraint_inputs: Vec::new(),
             base_unknowns: Vec::new(),
             base_equations: Vec::new(),
             form: Arc::new(empty),
@@ -149,6 +152,7 @@ impl System {
             system.element(force)?;
         }
         system.multipliers(&closed.held);
+        system.constraint_inputs();
         system.form = Arc::new(Form::new(&system, Formulation::Position));
         system.check_names()?;
         for (l, owner) in limits {
@@ -308,6 +312,19 @@ impl System {
             Multiplier { constraint, row, level: r.level, unknown, error, error_unit, nominal }
         };
         self.multipliers = held.iter().map(of).collect();
+    }
+
+    /// Inputs of the constraints; each is the rate of the one before.
+    fn constraint_inputs(&mut self) {
+        for c in &self.constraints {
+            let signals = c.inputs(&self.model);
+            let (first, count) = (self.inputs.len(), signals.len());
+            for (k, signal) in signals.into_iter().enumerate() {
+                let rate = (k + 1 < count).then_some(first + k + 1);
+                self.inputs.push(Input { signal, rate, nominal: 1.0, default: 0.0 });
+            }
+            self.constraint_inputs.push((first..first + count).collect());
+        }
     }
 
     fn check_names(&self) -> Result<(), SystemError> {
