@@ -9,6 +9,7 @@ mod gsxr1000_cornering;
 mod mechanisms;
 mod moto11;
 mod ref11;
+mod rolling_disc;
 mod sel04;
 
 use validation::evidence;
@@ -16,6 +17,6 @@ use validation::evidence;
 #[test]
 fn the_table_of_evidence_is_up_to_date() {
     let vehicles = [ref11::EVIDENCE, gsxr1000::EVIDENCE, gsxr1000_cornering::EVIDENCE, moto11::EVIDENCE, sel04::EVIDENCE, chain::EVIDENCE];
-    let rows: Vec<_> = vehicles.iter().chain(bicycle::EVIDENCE).chain([&mechanisms::EVIDENCE]).copied().collect();
+    let rows: Vec<_> = vehicles.iter().chain(bicycle::EVIDENCE).chain([&mechanisms::EVIDENCE, &rolling_disc::EVIDENCE]).copied().collect();
     evidence::hold("validation", &rows);
 }
