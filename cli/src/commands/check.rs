@@ -53,10 +53,11 @@ fn summary(assembled: &Assembled) -> String {
     let system = &assembled.system;
     let model = system.model();
     format!(
-        "{}: in order. {} moving bodies, {} degrees of freedom, {} elements, {} element states, {} inputs, {} outputs, {:.3} kg\n",
+        "{}: in order. {} moving bodies, {} degrees of freedom, {} constraints, {} elements, {} element states, {} inputs, {} outputs, {:.3} kg\n",
         assembled.name,
         model.moving().count(),
-        model.layout().nv(),
+        system.degrees_of_freedom(),
+        assembled.constraints.len(),
         system.elements().len(),
         system.state_count(),
         system.inputs().len(),

@@ -97,10 +97,12 @@ fn about(assembled: &Assembled) -> String {
     let (nq, nv) = (tree.layout().nq(), tree.layout().nv());
     let _ = writeln!(
         text,
-        "\n{} moving bodies, {nv} degrees of freedom ({nq} coordinates, {} tree velocities, {} followers), 0 loops, {:.6} kg",
+        "\n{} moving bodies, {} degrees of freedom ({nq} coordinates, {nv} velocities, {} tree velocities, {} followers), {} constraint rows, {:.6} kg",
         tree.moving().count(),
+        system.degrees_of_freedom(),
         tree.layout().tree_nv,
         tree.layout().followers.len(),
+        system.held_rows(),
         tree.total_mass()
     );
     let _ = writeln!(text, "\nbodies and joints (in the order of q and v)");
@@ -120,6 +122,12 @@ fn about(assembled: &Assembled) -> String {
     let welded: Vec<String> = welded.map(|f| format!("{} (on {})", f.name, tree.body(f.body).name)).collect();
     if !welded.is_empty() {
         let _ = writeln!(text, "  welded: {}", welded.join(", "));
+    }
+    if !assembled.constraints.is_empty() {
+        let _ = writeln!(text, "\nconstraints");
+    }
+    for (name, kind) in &assembled.constraints {
+        let _ = writeln!(text, "  {name:<22} {kind}");
     }
     if !assembled.kinds.is_empty() {
         let _ = writeln!(text, "\nelements");
@@ -142,6 +150,7 @@ fn about(assembled: &Assembled) -> String {
     section(&mut text, "coordinates", of(UnknownKind::Position));
     section(&mut text, "velocities", of(UnknownKind::Velocity));
     section(&mut text, "element states", of(UnknownKind::State));
+    section(&mut text, "multipliers", of(UnknownKind::Algebraic));
     section(&mut text, "inputs", system.inputs().iter().map(|i| &i.signal).collect());
     section(&mut text, "outputs", system.outputs().iter().collect());
     text

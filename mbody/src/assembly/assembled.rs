@@ -14,6 +14,7 @@ use crate::force::Force;
 use crate::model::{Model, ModelBuilder};
 use crate::spatial::Vec3;
 use crate::stage::Workspace;
+use serde_json::Value;
 use std::sync::Arc;
 
 /// A system that was read from files.
@@ -119,10 +120,38 @@ fn read_tree(document: &Document, library: &dyn Library, overrides: &[&Override]
         return None;
     };
     let (robot, of_urdf) = urdf::read(name, &text);
-    findings.extend(of_urdf);
+    let held = |f: &Finding| f.code == "massless_tip" && robot.as_ref().is_some_and(|r| is_held(document.value(), r, &f.path));
+    findings.extend(of_urdf.iter().filter(|f| !held(f)).cloned());
     let mut robot = robot?;
     change_tree(&mut robot, overrides, findings);
     Some(robot)
+}
+
+/// Whether a constraint holds the massless link of a path `link.<name>`, or one behind it: its motion follows from the others then.
+fn is_held(description: &Value, robot: &Robot, path: &str) -> bool {
+    let Some(link) = path.strip_prefix("link.") else { return false };
+    let mut links = Vec::new();
+    constrained_links(description.get("constraints").unwrap_or(&Value::Null), &mut links);
+    links.iter().any(|&held| {
+        let mut at = held;
+        loop {
+            if at == link {
+                return true;
+            }
+            match robot.joints.iter().find(|j| j.child == at) {
+                Some(joint) => at = &joint.parent,
+                None => return false,
+            }
+        }
+    })
+}
+
+/// All values under a key `link`.
+fn constrained_links<'a>(value: &'a Value, links: &mut Vec<&'a str>) {
+    if let Some(entries) = value.as_object() {
+        links.extend(entries.get("link").and_then(Value::as_str));
+        entries.values().for_each(|v| constrained_links(v, links));
+    }
 }
 
 /// Applies overrides to a tree. What is wrong only now is the fault of the overrides, not of the text.

@@ -365,6 +365,16 @@ impl System {
         &self.form.unknowns
     }
 
+    /// Number of velocities that are free: independent velocities less held rows.
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.model.layout.nv() - self.multipliers.len()
+    }
+
+    /// Number of rows of constraints that are held.
+    pub fn held_rows(&self) -> usize {
+        self.multipliers.len()
+    }
+
     /// The constraints.
     pub fn constraints(&self) -> &[Constraint] {
         &self.constraints
