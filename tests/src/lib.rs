@@ -2,6 +2,7 @@
 //!
 //! - [`reference`](mod@reference): published numbers as files;
 //! - [`agreement`]: comparisons whose tolerances have reasons, and the worst deviation of each;
+//! - [`instant`]: a model at one instant, with constraints, accelerations and forces;
 //! - [`tree`]: the tree of a model alone, in a motion given by signal names;
 //! - [`vehicle`]: bundled vehicles, their steady states by the names of their signals;
 //! - [`mod@evidence`]: rows that the tests declare, and the table in `README.md` that is made of them.
@@ -10,6 +11,7 @@
 
 pub mod agreement;
 pub mod evidence;
+pub mod instant;
 pub mod reference;
 pub mod tree;
 pub mod vehicle;

@@ -3,8 +3,10 @@
 //! The functions below say how the quantities of the sources are those of our models; the axes and angles are derived in the `SOURCE.md` beside each model.
 
 use mbody::assembly::BaseDescription;
+use mbody::spatial::Vec3;
 use validation::agreement::{Agreement, absolute, relative};
 use validation::evidence::Row;
+use validation::instant::Instant;
 use validation::reference::Table;
 use validation::tree::{Named, Tree};
 
@@ -24,6 +26,21 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "`heavy_top`: place of the mass center and energy of the model hold along the reference motion",
         "separate program, `mbs/heavy_top.csv`; EXUDYN",
         "1e-11 m, 1e-9 of the energy: digits and drift of the source"
+    ),
+    four_bars_accelerate_as_one_degree_of_freedom => (
+        "`n_four_bar`: accelerations along the exact motion",
+        "exact reduction 3 θ̈ = −3.5 g cos θ",
+        "1e-11 rad/s²: double precision, up to six hundred times amplified near the singular poses"
+    ),
+    andrews_squeezer_starts_and_ends_as_published => (
+        "`andrews_squeezer`: accelerations and constraint forces at the published start and at the end",
+        "IVP test set (thirty digits); separate program at t = 0.03 s",
+        "start 1e-12, end 1e-9 of the largest: sensitivity of the accelerations near the dead center to digits of the angles"
+    ),
+    the_spring_holds_the_four_bar_at_the_published_angle => (
+        "`four_bar_diagonal_spring`: static angle",
+        "B. P. Minaker, IFToMM solution 120; closed form",
+        "1e-13 rad/s²: double precision"
     ),
 ];
 
@@ -128,7 +145,7 @@ fn the_motion_of_andrews_squeezer_fits_the_model() {
             agreement.all_near(&format!("row {row}: its rate at {link}"), &[rate.x, rate.y, rate.z], &[0.0; 3], &rates);
         }
         // spring from C to D, without a force at 0.07785 m
-        let C = mbody::spatial::Vec3::new(0.014, 0.0, 0.072);
+        let C = Vec3::new(0.014, 0.0, 0.072);
         let stretch = (tree.position("k3", [0.02, 0.0, -0.018]) - C).norm() - 0.07785;
         let beta = table.number(row, "beta");
         let energy = tree.kinetic() + 0.5 * 4530.0 * stretch * stretch - SQUEEZER_TORQUE * beta;
@@ -165,6 +182,80 @@ fn the_motion_of_the_heavy_top_fits_the_model() {
         let expected = ["x", "y", "z"].map(|column| table.number(row, column));
         agreement.all_near(&format!("row {row}: mass center"), &[c.x, c.y, c.z], &expected, &place);
         agreement.near(&format!("row {row}: energy"), tree.kinetic() + tree.potential(), energy, &drift);
+    }
+    agreement.assert();
+}
+
+#[test]
+fn four_bars_accelerate_as_one_degree_of_freedom() {
+    let table = Table::read("mbs/n_four_bar.csv");
+    let mut model = Instant::of("n_four_bar");
+    let mut agreement = Agreement::on("n_four_bar: accelerations along the exact motion");
+    for row in 0..table.len() {
+        let (theta, rate) = (table.number(row, "theta"), table.number(row, "theta_dot"));
+        model.put(&four_bars(theta, rate));
+        let expected = -3.5 / 3.0 * 9.81 * theta.cos();
+        // rods in one line leave the loops free: constraint rows are regular in proportion to sin θ
+        let rounding = absolute(1e-13 / theta.sin().abs()).because("double precision, distance from the singular pose");
+        for crank in ["crank_0.rate", "crank_1.rate", "crank_2.rate"] {
+            agreement.near(&format!("row {row}: {crank}"), model.rate(crank), expected, &rounding);
+        }
+        agreement.near(&format!("row {row}: coupler"), model.rate("coupler_1.rate"), -expected, &rounding);
+    }
+    agreement.assert();
+}
+
+/// The six published multipliers from a point of our model: (λ₁, λ₂) is the force of K2 on K3 at E, in the plane of the source (x, z), and so on.
+///
+/// Our multipliers are the forces of the body with the line (K3, K4, K6) on K2, in axes of that body.
+fn squeezer_forces(model: &mut Instant) -> Vec<f64> {
+    let mut forces = Vec::new();
+    for (pin, link) in [("pin_k3", "k3"), ("pin_k4", "k4"), ("pin_k6", "k6")] {
+        let on_k2 = Vec3::new(model.get(&format!("{pin}.force_x")), 0.0, model.get(&format!("{pin}.force_z")));
+        let back = -(model.pose(link).R * on_k2);
+        forces.extend([back.x, back.z]);
+    }
+    forces
+}
+
+#[test]
+fn andrews_squeezer_starts_and_ends_as_published() {
+    let states = Table::read("mbs/andrews_squeezer_states.csv");
+    let multipliers = Table::read("mbs/andrews_squeezer_multipliers.csv");
+    let mut model = Instant::of("andrews_squeezer");
+    let mut agreement = Agreement::on("andrews_squeezer: accelerations and forces");
+    let double = relative(1e-12).because("double precision");
+    let digits = relative(1e-9).because("rounded angles near the dead center");
+    for (what, tolerance) in [("initial", double), ("converged_end", digits)] {
+        let numbers = |quantity: &str| -> Vec<f64> {
+            let row = states.find(&[("what", &format!("{what}_{quantity}"))]);
+            SQUEEZER.iter().map(|(column, ..)| states.number(row, column)).collect()
+        };
+        let (angles, rates) = (numbers("angle"), numbers("rate"));
+        let mut point = vec![("motor.torque", SQUEEZER_TORQUE)];
+        for (k, (_, angle, rate)) in SQUEEZER.into_iter().enumerate() {
+            point.extend([(angle, angles[k]), (rate, rates[k])]);
+        }
+        model.put(&point);
+        let accelerations: Vec<f64> = SQUEEZER.iter().map(|(_, _, rate)| model.rate(rate)).collect();
+        agreement.all_near(&format!("{what} accelerations"), &accelerations, &numbers("acceleration"), &tolerance);
+        let row = multipliers.find(&[("what", what)]);
+        let expected: Vec<f64> = (1..=6).map(|k| multipliers.number(row, &format!("l{k}"))).collect();
+        agreement.all_near(&format!("{what} forces"), &squeezer_forces(&mut model), &expected, &tolerance);
+    }
+    agreement.assert();
+}
+
+#[test]
+fn the_spring_holds_the_four_bar_at_the_published_angle() {
+    let table = Table::read("mbs/four_bar_diagonal_spring.csv");
+    let angle = table.number(table.find(&[("quantity", "static_angle")]), "closed_form");
+    let mut model = Instant::of("four_bar_diagonal_spring");
+    model.put(&[("left_crank.angle", angle), ("coupler.angle", -angle), ("right_crank.angle", angle)]);
+    let mut agreement = Agreement::on("four_bar_diagonal_spring: static angle");
+    let double = absolute(1e-13).because("double precision of accelerations whose parts are up to 10 rad/s²");
+    for name in ["left_crank.rate", "coupler.rate", "right_crank.rate"] {
+        agreement.near(name, model.rate(name), 0.0, &double);
     }
     agreement.assert();
 }

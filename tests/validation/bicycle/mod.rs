@@ -1,10 +1,11 @@
 //! The benchmark bicycle `whipple`: linear equations, eigenvalues, one published nonlinear state, one published motion.
 
 mod dynamics;
+mod linear;
 mod signs;
 mod source;
 
 use validation::evidence::Row;
 
 /// Rows of the table.
-pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE];
+pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE];

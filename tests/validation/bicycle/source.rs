@@ -79,7 +79,7 @@ fn energies_of_a_published_motion_are_met() {
 }
 
 /// A matrix of the linear equations, in the signs of the paper.
-fn matrix(table: &Table, name: &str) -> Matrix2<f64> {
+pub fn matrix(table: &Table, name: &str) -> Matrix2<f64> {
     let row = |row: &str| table.find(&[("matrix", name), ("row", row)]);
     let entry = |i: &str, j: &str| table.number(row(i), j);
     Matrix2::new(entry("lean", "lean"), entry("lean", "steer"), entry("steer", "lean"), entry("steer", "steer"))

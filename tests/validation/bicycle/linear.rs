@@ -1,0 +1,84 @@
+//! Small motions of the bicycle about straight running: the matrices and eigenvalues of the benchmark.
+
+use super::source::{printed_eigenvalues, sorted, state_matrix};
+use analyses::linearize::{LinearModel, Options, linearize};
+use mbody::dynamics::{Formulation, TreePlant};
+use nalgebra::{DMatrix, Matrix4};
+use problem::{At, Dae};
+use validation::agreement::{Agreement, absolute};
+use validation::evidence::Row;
+use validation::instant::Instant;
+use validation::reference::Table;
+use validation::vehicle::Vehicle;
+
+/// Rows of the table.
+pub const EVIDENCE: &[Row] = validation::evidence![
+    linear_equations_of_the_benchmark_are_met => (
+        "`whipple`: linear equations of lean and steer about straight running, 0 to 10 m/s, steering torque included",
+        "Meijaard et al. (2007), matrices M, C₁, K₀, K₂",
+        "1e-13 of the largest entry: double precision"
+    ),
+    printed_eigenvalues_are_met => (
+        "`whipple`: castering, capsize and weave eigenvalues, 0 to 10 m/s",
+        "Meijaard et al. (2007), table 2",
+        "5e-12 1/s: double precision on matrices with entries up to 1e3 (the source prints fourteen decimals)"
+    ),
+];
+
+/// The bicycle linearized about straight running, lean and steer among the states.
+fn straight(speed: f64) -> LinearModel {
+    let mut bicycle = Instant::of("whipple");
+    bicycle.put(&[("chassis.forward_speed", speed), ("steer.rate", 0.0), ("chassis.roll_rate", 0.0)]);
+    let mut plant = TreePlant::in_formulation(Vehicle::bundled("whipple").system, Formulation::Ggl);
+    // corrections of the stabilized form are zero
+    let value = |name: &str| if name.ends_with("_correction") { 0.0 } else { bicycle.get(name) };
+    let y: Vec<f64> = plant.unknowns().iter().map(|k| value(&k.signal.name)).collect();
+    let independent = ["chassis.roll", "steer.angle", "chassis.roll_rate", "steer.rate"].map(str::to_owned).to_vec();
+    let options = Options { independent, ..Options::default() };
+    linearize(&mut plant, At { time: 0.0, y: &y, yd: &vec![0.0; y.len()], u: &[0.0] }, &options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// `E⁻¹ A` and `E⁻¹ B` in the states (lean, steer, their rates) of the paper: our steer is to the left, so its sign changes, and that of the torque.
+fn in_signs_of_the_paper(model: &LinearModel) -> (Matrix4<f64>, [f64; 4]) {
+    let at = ["chassis.roll", "steer.angle", "chassis.roll_rate", "steer.rate"].map(|name| model.state(name).expect("a state"));
+    let sign = [1.0, -1.0, 1.0, -1.0];
+    let solved = |right: &DMatrix<f64>| model.E.clone().lu().solve(right).expect("inertia");
+    let (A, B) = (solved(&model.A), solved(&model.B));
+    let torque = model.input("steer.torque").expect("an input");
+    (Matrix4::from_fn(|i, j| sign[i] * A[(at[i], at[j])] * sign[j]), [0, 1, 2, 3].map(|i| -sign[i] * B[(at[i], torque)]))
+}
+
+#[test]
+fn linear_equations_of_the_benchmark_are_met() {
+    let mut agreement = Agreement::on("whipple: linear equations");
+    for speed in (0..=10).map(f64::from) {
+        let (found, torque) = in_signs_of_the_paper(&straight(speed));
+        let expected = state_matrix(speed);
+        let double = absolute(1e-13 * expected.amax()).because("double precision of the largest entry");
+        agreement.all_near(&format!("{speed} m/s"), found.as_slice(), expected.as_slice(), &double);
+        // M⁻¹ (0, 1): the torque acts on steer
+        let table = Table::read("bicycle/matrices.csv");
+        let M = super::source::matrix(&table, "M").try_inverse().expect("a mass matrix");
+        agreement.all_near(&format!("{speed} m/s, torque"), &torque, &[0.0, 0.0, M[(0, 1)], M[(1, 1)]], &double);
+    }
+    agreement.assert();
+}
+
+#[test]
+fn printed_eigenvalues_are_met() {
+    let table = Table::read("bicycle/table_2.csv");
+    let mut agreement = Agreement::on("whipple: table 2");
+    let digits = absolute(5e-12).because("double precision on matrices with entries up to 1e3");
+    for row in 0..table.len() {
+        let speed = table.number(row, "v_m_s");
+        let spectrum = analyses::eigen::eigen(&straight(speed)).unwrap_or_else(|error| panic!("{error}"));
+        // running on at another speed is no motion of lean and steer
+        let found: Vec<_> = spectrum.values.iter().map(|z| (z.re, z.im)).filter(|z| z.0.hypot(z.1) > 1e-6).collect();
+        agreement.holds(&format!("{speed} m/s: four eigenvalues besides zero"), found.len() == 4);
+        for (k, (found, expected)) in sorted(found).iter().zip(printed_eigenvalues(&table, row)).enumerate() {
+            agreement.near(&format!("{speed} m/s, real part {k}"), found.0, expected.0, &digits);
+            agreement.near(&format!("{speed} m/s, imaginary part {k}"), found.1, expected.1, &digits);
+        }
+    }
+    agreement.assert();
+}
