@@ -38,11 +38,13 @@ pub fn signals(plant: &dyn Plant) -> Vec<Signal> {
     unknowns.chain(plant.inputs().iter().map(|i| i.signal.clone())).chain(plant.outputs().iter().cloned()).collect()
 }
 
-fn values(p: &TrimPoint) -> Vec<f64> {
-    if !p.solved {
-        return Vec::new();
-    }
-    p.y.iter().chain(&p.u).chain(&p.outputs).copied().collect()
+/// The point of a report: signals and rates where the equations hold.
+fn to_point(given: Vec<f64>, p: TrimPoint) -> Point {
+    let (values, rates) = match p.solved {
+        true => (p.y.iter().chain(&p.u).chain(&p.outputs).copied().collect(), p.yd),
+        false => (Vec::new(), Vec::new()),
+    };
+    Point { given, values, rates, ending: p.ending, iterations: p.iterations, residual: p.residual }
 }
 
 /// Runs a request. `what` names the job for the progress bar.
@@ -161,7 +163,14 @@ impl Job<'_> {
             let side = usize::from(turn < 0.0);
             let given = vec![speed, goal.turn.unwrap_or_default()];
             if let Some((_, ending)) = ended[side].as_ref().filter(|(end, _)| turn.abs() >= end.abs()) {
-                points.push(Point { given, ending: ending.clone(), iterations: 0, residual: f64::NAN, values: Vec::new() });
+                points.push(Point {
+                    given,
+                    ending: ending.clone(),
+                    iterations: 0,
+                    residual: f64::NAN,
+                    values: Vec::new(),
+                    rates: Vec::new(),
+                });
                 continue;
             }
             let from = if last[side].0[1].abs() <= turn.abs() { &last[side] } else { &anchor };
@@ -172,13 +181,7 @@ impl Job<'_> {
                 true => last[side] = (target, found.x.clone()),
                 false => ended[side] = Some((turn, found.ending.clone())),
             }
-            points.push(Point {
-                given,
-                values: values(&found),
-                ending: found.ending,
-                iterations: found.iterations,
-                residual: found.residual,
-            });
+            points.push(to_point(given, found));
         }
         Ok(Some(points))
     }
@@ -205,14 +208,7 @@ impl Job<'_> {
                 }
             }
         };
-        let to_point = |p: TrimPoint| Point {
-            given: given.clone(),
-            values: values(&p),
-            ending: p.ending,
-            iterations: p.iterations,
-            residual: p.residual,
-        };
-        Ok(found.into_iter().map(to_point).collect())
+        Ok(found.into_iter().map(|p| to_point(given.clone(), p)).collect())
     }
 
     fn at_rest(&self) -> Result<TrimPoint, Failure> {

@@ -1,5 +1,7 @@
 //! Bundled vehicles and their steady states, by the names of their signals: the way of the command line without its text.
 
+use analyses::linearize::Options;
+use analyses::{LinearModel, linearize};
 use fastbike::library::Source;
 use fastbike::output::Point;
 use fastbike::plan::{Prescribed, Request, Turn};
@@ -120,10 +122,19 @@ impl State {
         (y, &rest[..self.system.inputs().len()])
     }
 
-    /// Calls `look` with the point of evaluation; the accelerations of a steady state without `--acceleration` are zero.
+    /// Calls `look` with the point of evaluation.
     pub fn at<T>(&self, look: impl FnOnce(At<'_>) -> T) -> T {
         let (y, u) = self.arguments();
-        look(At { time: 0.0, y, yd: &vec![0.0; y.len()], u })
+        look(At { time: 0.0, y, yd: &self.point.rates, u })
+    }
+
+    /// The linear model of small motions about this state.
+    ///
+    /// # Panics
+    /// The state is no trim.
+    pub fn linear(&self) -> LinearModel {
+        let mut plant = TreePlant::new(self.system.clone());
+        self.at(|at| linearize(&mut plant, at, &Options::default())).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The benchmark motorcycle `moto11`, which several codes solve: inverse dynamics, one steady turn, a sweep of 400 steady turns.
 
+use analyses::eigen;
 use analyses::trim::{Trim, TrimProblem, Walk};
 use fastbike::plan::Turn;
 use mbody::algorithm::kinematics;
@@ -13,7 +14,7 @@ use sundials::{Kinsol, Strategy};
 use validation::agreement::{Agreement, relative};
 use validation::evidence::Row;
 use validation::reference::{Table, text};
-use validation::vehicle::{State, Vehicle, free, given, turning};
+use validation::vehicle::{State, Vehicle, free, given, running, turning};
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -31,6 +32,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "`moto11`: 400 steady turns, 10 to 60 m/s, 0 to 8 m/s², each from its neighbor in the grid as in the benchmark: none fails, by KINSOL and Newton",
         "definition of the benchmark",
         "exact; scaled residual 1e-10"
+    ),
+    eigenvalues_are_met => (
+        "`moto11`: the six oscillations of straight running at 30 m/s",
+        "codes on Pinocchio (Python, C++) and CasADi agree; definition of the benchmark",
+        "half a unit of the last printed digit"
     ),
 ];
 
@@ -147,4 +153,26 @@ fn none_of_four_hundred_turns_fails() {
         println!("moto11: 400 turns by {}: {} failures, {:.2} iterations each", method.name(), failures.len(), iterations as f64 / 400.0);
         assert!(failures.is_empty(), "{}: {failures:#?}", method.name());
     }
+}
+
+#[test]
+fn eigenvalues_are_met() {
+    const PRINTED: [(&str, &str); 6] = [
+        ("-29.5122", "73.2654"),
+        ("-80.5883", "56.6364"),
+        ("-15.7023", "48.9841"),
+        ("-10.9462", "25.3710"),
+        ("-2.3634", "16.9032"),
+        ("-5.4951", "13.4513"),
+    ];
+    let spectrum = eigen(&Vehicle::bundled("moto11").state(&running(&[30.0])).linear()).expect("eigenvalues");
+    let mut agreement = Agreement::on("moto11: eigenvalues");
+    // the 22 states of the benchmark without the five cyclic coordinates, which add zeros
+    agreement.holds("17 eigenvalues", spectrum.values.len() == 17);
+    agreement.holds("six oscillations", spectrum.values.iter().filter(|s| s.im > 0.0).count() == 6);
+    for (pair, (re, im)) in spectrum.values.chunks(2).zip(PRINTED) {
+        agreement.printed(&format!("real part of {}", pair[0]), pair[0].re, re);
+        agreement.printed(&format!("imaginary part of {}", pair[0]), pair[0].im, im);
+    }
+    agreement.assert();
 }

@@ -3,6 +3,7 @@
 //! The driving torques of the second and third state are printed with nine decimals, but are good to 1e-8 N m only: a second
 //! independent prototype gives 82.594535195 and −187.188722746 N m.
 
+use analyses::eigen;
 use fastbike::plan::{Request, Turn};
 use validation::agreement::{Agreement, absolute};
 use validation::evidence::Row;
@@ -27,6 +28,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
     ),
     torque_over_lean_is_met => (
         "`ref11`: steering torque at 30 m/s, lean 0.3, 0.6, 0.9 rad; it changes its sign",
+        "independent prototype, theory manual B.3",
+        "half a unit of the last printed digit"
+    ),
+    eigenvalues_are_met => (
+        "`ref11`: all 19 eigenvalues straight at 30 m/s, leaning by 0.6 rad, and braking with 3 m/s² in a lean of 0.4 rad (frozen)",
         "independent prototype, theory manual B.3",
         "half a unit of the last printed digit"
     ),
@@ -176,6 +182,67 @@ fn torque_over_lean_is_met() {
     let states = vehicle.steady(&leaning(&[30.0], &[0.3, 0.6, 0.9]), "kinsol");
     for (state, text) in states.iter().zip(["1.3846", "-0.8131", "-10.5587"]) {
         agreement.printed(&format!("lean {} rad", state.point.given[1]), state.get("steer.torque"), text);
+    }
+    agreement.assert();
+}
+
+/// Six oscillations, real and imaginary part, then seven real eigenvalues, as they are printed.
+type Eigenvalues = ([(&'static str, &'static str); 6], [&'static str; 7]);
+
+const STRAIGHT_EIGENVALUES: Eigenvalues = (
+    [
+        ("-48.185356", "80.844355"),
+        ("-34.513775", "71.030147"),
+        ("-4.160852", "49.932087"),
+        ("-3.580346", "18.128769"),
+        ("-13.512232", "16.204459"),
+        ("-4.775040", "11.887325"),
+    ],
+    ["-210.275555", "-185.038335", "-166.870568", "-132.921834", "-23.556475", "-0.125250", "-0.042347"],
+);
+const LEANING_EIGENVALUES: Eigenvalues = (
+    [
+        ("-47.572369", "77.782536"),
+        ("-33.099673", "69.682050"),
+        ("-3.299470", "48.559341"),
+        ("-14.313623", "17.076689"),
+        ("-2.919523", "16.456279"),
+        ("-5.080170", "12.210240"),
+    ],
+    ["-224.167360", "-209.938420", "-160.592617", "-116.771600", "-23.065283", "-0.041254", "0.292409"],
+);
+const BRAKING_EIGENVALUES: Eigenvalues = (
+    [
+        ("-48.489841", "80.490250"),
+        ("-36.925380", "70.460312"),
+        ("-3.492385", "53.047965"),
+        ("-13.600311", "16.670219"),
+        ("-2.283695", "15.846767"),
+        ("-4.716942", "12.140051"),
+    ],
+    ["-253.118487", "-181.419566", "-174.480153", "-96.036037", "-23.009448", "-0.360755", "-0.042342"],
+);
+
+#[test]
+fn eigenvalues_are_met() {
+    let vehicle = Vehicle::bundled("ref11");
+    let mut agreement = Agreement::on("ref11: eigenvalues");
+    for (name, request, (oscillations, reals)) in [
+        ("straight", leaning(&[30.0], &[0.0]), STRAIGHT_EIGENVALUES),
+        ("leaning", leaning(&[30.0], &[0.6]), LEANING_EIGENVALUES),
+        ("braking in a lean", braking(), BRAKING_EIGENVALUES),
+    ] {
+        let spectrum = eigen(&vehicle.state(&request).linear()).expect("eigenvalues");
+        agreement.holds(&format!("{name}: 19 eigenvalues"), spectrum.values.len() == 19);
+        let (pairs, rest) = spectrum.values.split_at(12);
+        for (pair, (re, im)) in pairs.chunks(2).zip(oscillations) {
+            agreement.printed(&format!("{name}: real part of {}", pair[0]), pair[0].re, re);
+            agreement.printed(&format!("{name}: imaginary part of {}", pair[0]), pair[0].im, im);
+        }
+        for (found, re) in rest.iter().zip(reals) {
+            agreement.printed(&format!("{name}: real {found}"), found.re, re);
+            agreement.holds(&format!("{name}: {found} is real"), found.im == 0.0);
+        }
     }
     agreement.assert();
 }

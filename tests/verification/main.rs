@@ -4,6 +4,7 @@
 
 mod every_element;
 mod every_joint;
+mod linear;
 mod mechanisms;
 mod motion;
 mod recorded;
@@ -13,5 +14,8 @@ use validation::evidence;
 
 #[test]
 fn the_table_of_evidence_is_up_to_date() {
-    evidence::hold("verification", &[every_joint::EVIDENCE, every_element::EVIDENCE, mechanisms::EVIDENCE, trim::EVIDENCE]);
+    evidence::hold(
+        "verification",
+        &[every_joint::EVIDENCE, every_element::EVIDENCE, mechanisms::EVIDENCE, trim::EVIDENCE, linear::EVIDENCE],
+    );
 }

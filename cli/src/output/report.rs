@@ -33,6 +33,8 @@ pub struct Point {
     pub residual: f64,
     /// One value per signal of the report; empty where nothing was computed.
     pub values: Vec<f64>,
+    /// Rates of the unknowns, which are the first signals; always in ISO axes. Empty where nothing was computed.
+    pub rates: Vec<f64>,
 }
 
 impl Point {

@@ -22,7 +22,7 @@ pub(super) fn corner() -> Report {
         Signal::new("curvature", "1/m", "curvature of the path, positive to the left"),
     ];
     let values = vec![0.6, YAW_RATE, -7.125, 1623.4567, 3e-17, 0.71, -0.011_157];
-    let point = Point { given: vec![20.0, 0.6], ending: Ending::Reached, iterations: 4, residual: 1e-12, values };
+    let point = Point { given: vec![20.0, 0.6], ending: Ending::Reached, iterations: 4, residual: 1e-12, values, rates: vec![] };
     Report { points: vec![point], ..Report::new("trim", "ref11", given(), signals) }
 }
 
@@ -35,7 +35,14 @@ pub(super) fn sweep() -> Report {
     ];
     let limit = Ending::Limit { name: "tire_saturated".into(), signal: "rear_tire.friction_use".into(), value: 1.02, threshold: 1.0 };
     let lost = Ending::NotConverged { because: "`steer.angle` and `chassis.roll` move together".into() };
-    let point = |speed, ending, iterations, residual, values| Point { given: vec![speed, 0.6], ending, iterations, residual, values };
+    let point = |speed, ending, iterations, residual, values| Point {
+        given: vec![speed, 0.6],
+        ending,
+        iterations,
+        residual,
+        values,
+        rates: vec![],
+    };
     let points = vec![
         point(20.0, Ending::Reached, 4, 1e-12, vec![0.6, -7.125, 1623.4567]),
         point(30.0, limit, 17, 0.003, vec![0.55, 12.0, f64::NAN]),
