@@ -1,14 +1,14 @@
 //! Analyses as services: they know signals and problem traits, never an engine and never a trade.
 //!
-//! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them,
-//! [`mod@eigen`] their eigenvalues; [`expression`] is the small language in
-//! which conditions are written.
+//! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them, [`mod@eigen`] their eigenvalues;
+//! [`transient`] follows a motion over time; [`expression`] is the small language in which conditions are written.
 
 #![allow(non_snake_case)]
 
 pub mod eigen;
 pub mod expression;
 pub mod linearize;
+pub mod transient;
 pub mod trim;
 pub mod variable;
 

@@ -66,6 +66,16 @@ impl Variables {
         }
     }
 
+    /// Name, unit and meaning of a variable.
+    pub fn signal(&self, variable: Variable) -> Signal {
+        match variable {
+            Variable::Unknown(i) => self.unknowns[i].clone(),
+            Variable::Rate(i) => Signal::new(self.name(variable), self.unit(variable), format!("rate of: {}", self.unknowns[i].about)),
+            Variable::Input(i) => self.inputs[i].clone(),
+            Variable::Output(i) => self.outputs[i].clone(),
+        }
+    }
+
     /// All names, sorted, without rates.
     pub fn names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = self.by_name.keys().map(String::as_str).filter(|n| !n.starts_with("rate(")).collect();

@@ -39,7 +39,7 @@ pub(super) fn rank_rows(jacobian: &DMatrix<f64>) -> (Vec<usize>, usize) {
 }
 
 /// Names of the signals with a share in the direction that changes the rows least, largest first.
-pub(super) fn moving_together(jacobian: &DMatrix<f64>, unknowns: &[Variable], scale: &[f64], variables: &Variables) -> Vec<String> {
+pub(crate) fn moving_together(jacobian: &DMatrix<f64>, unknowns: &[Variable], scale: &[f64], variables: &Variables) -> Vec<String> {
     let n = unknowns.len();
     // the right singular vector of the smallest singular value; pad wide matrices so that it is computed
     let mut square = DMatrix::zeros(n.max(jacobian.nrows()), n);

@@ -1,0 +1,132 @@
+//! A plant as `ẏ = f(t, y)` of its differential unknowns, on the manifold of its constraints.
+
+use super::SharedPlant;
+use super::inputs::Inputs;
+use problem::{EquationKind, EvalError, OdeProblem, Off, ProjectionError, UnknownKind};
+
+/// All unknowns of a plant around the states of its explicit form.
+pub(super) struct Whole<'a, 'p> {
+    plant: &'a SharedPlant<'p>,
+    inputs: &'a dyn Inputs,
+    /// Indices of the differential unknowns: the states.
+    states: Vec<usize>,
+    /// The row that belongs to each state: rate of a coordinate, equation of motion, row of an element.
+    rows: Vec<usize>,
+    y: Vec<f64>,
+    yd: Vec<f64>,
+    u: Vec<f64>,
+}
+
+impl<'a, 'p> Whole<'a, 'p> {
+    /// Starts from a consistent point.
+    pub(super) fn new(plant: &'a SharedPlant<'p>, inputs: &'a dyn Inputs, y: &[f64], yd: &[f64]) -> Self {
+        let p = plant.borrow();
+        let states: Vec<usize> = (0..y.len()).filter(|&i| p.unknowns()[i].differential).collect();
+        let row = |state: usize| {
+            let unknown = p.unknowns()[state].kind;
+            let kind = match unknown {
+                UnknownKind::Position => EquationKind::Kinematic,
+                UnknownKind::Velocity => EquationKind::Dynamic,
+                UnknownKind::State | UnknownKind::Algebraic => EquationKind::Element,
+            };
+            // rows follow the unknowns of their kind in order
+            let nth = p.unknowns()[..state].iter().filter(|u| u.kind == unknown).count();
+            let rows = p.equations().iter().enumerate().filter(|(_, e)| e.kind == kind);
+            rows.map(|(i, _)| i).nth(nth).unwrap_or_default()
+        };
+        let rows = states.iter().map(|&i| row(i)).collect();
+        Self { plant, inputs, states, rows, y: y.to_vec(), yd: yd.to_vec(), u: vec![0.0; p.inputs().len()] }
+    }
+
+    /// Completes the states by multipliers and rates: all of y and ẏ.
+    pub(super) fn complete(&mut self, time: f64, states: &[f64]) -> Result<(&[f64], &[f64]), EvalError> {
+        self.scatter(time, states);
+        self.plant.borrow_mut().solve_rates(time, &mut self.y, &self.u, &mut self.yd)?;
+        match self.states.iter().position(|&i| !self.yd[i].is_finite()) {
+            Some(k) => Err(EvalError::Recoverable { equation: self.rows[k] }),
+            None => Ok((&self.y, &self.yd)),
+        }
+    }
+
+    fn scatter(&mut self, time: f64, states: &[f64]) {
+        self.inputs.at(time, &mut self.u);
+        for (&i, &x) in self.states.iter().zip(states) {
+            self.y[i] = x;
+        }
+    }
+}
+
+/// The explicit form of a plant and its inputs.
+pub(super) struct ExplicitForm<'a, 'p> {
+    whole: Whole<'a, 'p>,
+    absolute_tolerance: Vec<f64>,
+    /// Why the last evaluation failed.
+    failure: Option<EvalError>,
+    /// Rows that the last projection could not satisfy.
+    off: Vec<Off>,
+}
+
+impl<'a, 'p> ExplicitForm<'a, 'p> {
+    /// Starts from a consistent point.
+    pub(super) fn new(plant: &'a SharedPlant<'p>, inputs: &'a dyn Inputs, y: &[f64], yd: &[f64]) -> Self {
+        let whole = Whole::new(plant, inputs, y, yd);
+        let p = plant.borrow();
+        let absolute_tolerance = whole.states.iter().map(|&i| p.unknowns()[i].absolute_tolerance).collect();
+        Self { whole, absolute_tolerance, failure: None, off: Vec::new() }
+    }
+
+    /// The states among all unknowns.
+    pub(super) fn states(&self) -> &[usize] {
+        &self.whole.states
+    }
+
+    /// Why the last evaluation failed, if it did.
+    pub(super) fn failure(&self) -> Option<EvalError> {
+        self.failure
+    }
+
+    /// Rows that the last projection could not satisfy, worst first; empty where it succeeded.
+    pub(super) fn off(&self) -> &[Off] {
+        &self.off
+    }
+}
+
+impl OdeProblem for ExplicitForm<'_, '_> {
+    fn size(&self) -> usize {
+        self.whole.states.len()
+    }
+    fn absolute_tolerance(&self) -> &[f64] {
+        &self.absolute_tolerance
+    }
+    fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError> {
+        let completed = self.whole.complete(time, y).map(|_| ());
+        self.failure = completed.err();
+        for (rate, &i) in yd.iter_mut().zip(&self.whole.states) {
+            *rate = self.whole.yd[i];
+        }
+        completed
+    }
+    fn project(&mut self, time: f64, y: &mut [f64]) -> Result<(), EvalError> {
+        let whole = &mut self.whole;
+        whole.scatter(time, y);
+        let projected = whole.plant.borrow_mut().project(time, &mut whole.y, &whole.u, &[]);
+        self.off.clear();
+        match projected {
+            Ok(()) => {
+                for (state, &i) in y.iter_mut().zip(&whole.states) {
+                    *state = whole.y[i];
+                }
+                Ok(())
+            }
+            Err(ProjectionError::Evaluation(e)) => {
+                self.failure = Some(e);
+                Err(e)
+            }
+            // the step was too long to find back from; a shorter one may end nearer
+            Err(ProjectionError::Open { rows } | ProjectionError::Velocity { rows }) => {
+                self.off = rows;
+                Err(EvalError::Recoverable { equation: whole.rows.first().copied().unwrap_or_default() })
+            }
+        }
+    }
+}

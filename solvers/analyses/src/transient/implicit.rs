@@ -1,0 +1,108 @@
+//! A plant as `0 = F(t, y, ẏ)` with rows in units of their nominal values.
+
+use super::SharedPlant;
+use super::diagnosis::{TOLD, off};
+use super::inputs::Inputs;
+use problem::{At, DaeProblem, EvalError, Matrix, Off, Seeds};
+
+/// The implicit form of a plant and its inputs.
+pub(super) struct Implicit<'a, 'p> {
+    plant: &'a SharedPlant<'p>,
+    inputs: &'a dyn Inputs,
+    differential: Vec<bool>,
+    absolute_tolerance: Vec<f64>,
+    nominal: Vec<f64>,
+    u: Vec<f64>,
+    outputs: Vec<f64>,
+    /// Residual of the last evaluation, SI units.
+    last: Vec<f64>,
+    /// Why the last evaluation failed.
+    failure: Option<EvalError>,
+    seeds: Seeds,
+    /// The c that the seeds are set for.
+    seeded: Option<f64>,
+    d_residual: Matrix,
+    d_outputs: Matrix,
+}
+
+impl<'a, 'p> Implicit<'a, 'p> {
+    pub(super) fn new(plant: &'a SharedPlant<'p>, inputs: &'a dyn Inputs) -> Self {
+        let p = plant.borrow();
+        let (ny, nf, nu, nz) = (p.unknowns().len(), p.equations().len(), p.inputs().len(), p.outputs().len());
+        let mut seeds = Seeds::zeros(ny, nu, ny);
+        (0..ny).for_each(|i| seeds.y[(i, i)] = 1.0);
+        Self {
+            plant,
+            inputs,
+            differential: p.unknowns().iter().map(|u| u.differential).collect(),
+            absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance).collect(),
+            nominal: p.equations().iter().map(|e| e.nominal).collect(),
+            u: vec![0.0; nu],
+            outputs: vec![0.0; nz],
+            last: vec![0.0; nf],
+            failure: None,
+            seeds,
+            seeded: None,
+            d_residual: Matrix::zeros(nf, ny),
+            d_outputs: Matrix::zeros(nz, ny),
+        }
+    }
+
+    /// One direction per unknown: y_i + c ẏ_i. Rates of algebraic unknowns appear nowhere.
+    fn seed(&mut self, c: f64) {
+        if self.seeded != Some(c) {
+            for i in (0..self.differential.len()).filter(|&i| self.differential[i]) {
+                self.seeds.yd[(i, i)] = c;
+            }
+            self.seeded = Some(c);
+        }
+    }
+
+    /// Why the last evaluation failed, if it did.
+    pub(super) fn failure(&self) -> Option<EvalError> {
+        self.failure
+    }
+
+    /// Rows that were off most at the last evaluation, worst first.
+    pub(super) fn worst(&self) -> Vec<Off> {
+        let share = |i: &usize| (self.last[*i] / self.nominal[*i]).abs();
+        let mut rows: Vec<usize> = (0..self.last.len()).filter(|i| share(i) > 0.0).collect();
+        rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
+        let plant = self.plant.borrow();
+        rows.iter().take(TOLD).map(|&i| off(&plant.equations()[i], self.last[i])).collect()
+    }
+}
+
+impl DaeProblem for Implicit<'_, '_> {
+    fn size(&self) -> usize {
+        self.differential.len()
+    }
+    fn differential(&self) -> &[bool] {
+        &self.differential
+    }
+    fn absolute_tolerance(&self) -> &[f64] {
+        &self.absolute_tolerance
+    }
+    fn residual(&mut self, time: f64, y: &[f64], yd: &[f64], residual: &mut [f64]) -> Result<(), EvalError> {
+        self.inputs.at(time, &mut self.u);
+        let evaluated = self.plant.borrow_mut().residual(At { time, y, yd, u: &self.u }, &mut self.last);
+        self.failure = evaluated.err();
+        for ((scaled, row), nominal) in residual.iter_mut().zip(&self.last).zip(&self.nominal) {
+            *scaled = row / nominal;
+        }
+        evaluated
+    }
+    fn jacobian(&mut self, time: f64, c: f64, y: &[f64], yd: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
+        self.seed(c);
+        self.inputs.at(time, &mut self.u);
+        let at = At { time, y, yd, u: &self.u };
+        let values = (&mut self.last[..], &mut self.outputs[..]);
+        let evaluated = self.plant.borrow_mut().along(at, &self.seeds, values, &mut self.d_residual, &mut self.d_outputs);
+        self.failure = evaluated.err();
+        for j in 0..jacobian.columns() {
+            let column = jacobian.column_mut(j).iter_mut().zip(self.d_residual.column(j)).zip(&self.nominal);
+            column.for_each(|((scaled, entry), nominal)| *scaled = entry / nominal);
+        }
+        evaluated
+    }
+}

@@ -1,0 +1,129 @@
+//! Takes samples: recorded signals, drift of the constraints, limits that were met.
+
+use super::SharedPlant;
+use super::diagnosis::off;
+use super::inputs::Inputs;
+use super::trajectory::{Drift, LimitMet, Trajectory, Worst};
+use crate::{Variable, Variables};
+use problem::{At, EquationKind, EvalError, Flow};
+
+/// Largest violation of one family of rows so far.
+struct Family {
+    rows: Vec<usize>,
+    /// Row, residual in SI units, time.
+    worst: Option<(usize, f64, f64)>,
+}
+
+/// A declared limit under watch.
+struct Watched {
+    limit: usize,
+    variable: Variable,
+    /// Value and time of the first violation.
+    met: Option<(f64, f64)>,
+}
+
+/// The receiver of all samples.
+pub(super) struct Recorder<'a, 'p> {
+    plant: &'a SharedPlant<'p>,
+    inputs: &'a dyn Inputs,
+    record: Vec<Variable>,
+    trajectory: Trajectory,
+    /// Constraints on coordinates, constraints on velocities.
+    families: [Family; 2],
+    nominal: Vec<f64>,
+    limits: Vec<Watched>,
+    u: Vec<f64>,
+    residual: Vec<f64>,
+    outputs: Vec<f64>,
+    failure: Option<EvalError>,
+}
+
+impl<'a, 'p> Recorder<'a, 'p> {
+    pub(super) fn new(
+        plant: &'a SharedPlant<'p>,
+        inputs: &'a dyn Inputs,
+        variables: &Variables,
+        record: &[Variable],
+        samples: usize,
+    ) -> Self {
+        let p = plant.borrow();
+        let rows = |kind: EquationKind| p.equations().iter().enumerate().filter(move |(_, e)| e.kind == kind).map(|(i, _)| i).collect();
+        let family = |kind| Family { rows: rows(kind), worst: None };
+        let watched = p.limits().iter().enumerate();
+        let watched = watched.filter_map(|(limit, l)| variables.find(&l.signal).map(|variable| Watched { limit, variable, met: None }));
+        Self {
+            plant,
+            inputs,
+            record: record.to_vec(),
+            trajectory: Trajectory::with_room(variables, record, samples),
+            families: [family(EquationKind::Constraint), family(EquationKind::VelocityConstraint)],
+            nominal: p.equations().iter().map(|e| e.nominal).collect(),
+            limits: watched.collect(),
+            u: vec![0.0; p.inputs().len()],
+            residual: vec![0.0; p.equations().len()],
+            outputs: vec![0.0; p.outputs().len()],
+            failure: None,
+        }
+    }
+
+    /// Takes one sample. What cannot be evaluated is recorded as it is, and nothing further is asked for.
+    pub(super) fn sample(&mut self, time: f64, y: &[f64], yd: &[f64]) -> Flow {
+        self.inputs.at(time, &mut self.u);
+        let at = At { time, y, yd, u: &self.u };
+        let evaluated = self.plant.borrow_mut().evaluate(at, &mut self.residual, &mut self.outputs);
+        let (u, outputs) = (&self.u, &self.outputs);
+        let value = |v: Variable| match v {
+            Variable::Unknown(i) => y[i],
+            Variable::Rate(i) => yd[i],
+            Variable::Input(i) => u[i],
+            Variable::Output(i) => outputs[i],
+        };
+        self.trajectory.time.push(time);
+        for (column, &v) in self.trajectory.columns.iter_mut().zip(&self.record) {
+            column.push(value(v));
+        }
+        if let Err(e) = evaluated {
+            self.failure = Some(e);
+            return Flow::Stop;
+        }
+        let plant = self.plant.borrow();
+        for watched in self.limits.iter_mut().filter(|w| w.met.is_none()) {
+            let value = value(watched.variable);
+            if plant.limits()[watched.limit].margin(value) < 0.0 {
+                watched.met = Some((value, time));
+            }
+        }
+        for family in &mut self.families {
+            for &row in &family.rows {
+                let share = |row: usize, residual: f64| (residual / self.nominal[row]).abs();
+                if family.worst.is_none_or(|(r, worst, _)| share(row, self.residual[row]) > share(r, worst)) {
+                    family.worst = Some((row, self.residual[row], time));
+                }
+            }
+        }
+        Flow::Continue
+    }
+
+    /// Time of the last sample, s.
+    pub(super) fn last_time(&self) -> Option<f64> {
+        self.trajectory.time.last().copied()
+    }
+
+    /// The row that made a sample fail.
+    pub(super) fn failure(&self) -> Option<EvalError> {
+        self.failure
+    }
+
+    /// Everything recorded, in names.
+    pub(super) fn finish(self) -> (Trajectory, Drift, Vec<LimitMet>) {
+        let plant = self.plant.borrow();
+        let worst = |family: &Family| family.worst.map(|(row, by, time)| Worst { off: off(&plant.equations()[row], by), time });
+        let [position, velocity] = &self.families;
+        let drift = Drift { position: worst(position), velocity: worst(velocity) };
+        let met = self.limits.iter().filter_map(|watched| {
+            let (limit, (value, time)) = (&plant.limits()[watched.limit], watched.met?);
+            Some(LimitMet { name: limit.name.to_string(), signal: limit.signal.clone(), value, threshold: limit.threshold, time })
+        });
+        (self.trajectory, drift, met.collect())
+    }
+}
