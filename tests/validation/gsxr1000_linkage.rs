@@ -112,8 +112,7 @@ fn shock_rate(bike: &mut Instant) -> f64 {
 fn the_loop_and_the_element_are_one_machine() {
     let (with_loop, with_element) = (Vehicle::bundled("gsxr1000_linkage"), Vehicle::bundled("gsxr1000"));
     let lean = |degrees: f64| degrees.to_radians();
-    let requests =
-        [Default::default(), running(&[20.0, 60.0]), turning(&[15.0, 35.0], Turn::Lean, &[lean(20.0), lean(-40.0), lean(45.0)])];
+    let requests = [Default::default(), running(&[20.0, 60.0]), turning(&[15.0, 35.0], Turn::Lean, &[lean(20.0), lean(-40.0), lean(45.0)])];
     let mut agreement = Agreement::on("gsxr1000: linkage as a loop and as an element");
     let mut compared = 0;
     for request in &requests {

@@ -18,6 +18,11 @@ use validation::evidence;
 #[test]
 fn the_table_of_evidence_is_up_to_date() {
     let vehicles = [ref11::EVIDENCE, gsxr1000::EVIDENCE, gsxr1000_cornering::EVIDENCE, moto11::EVIDENCE, sel04::EVIDENCE, chain::EVIDENCE];
-    let rows: Vec<_> = vehicles.iter().chain(bicycle::EVIDENCE).chain([&mechanisms::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE]).copied().collect();
+    let rows: Vec<_> = vehicles
+        .iter()
+        .chain(bicycle::EVIDENCE)
+        .chain([&mechanisms::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE])
+        .copied()
+        .collect();
     evidence::hold("validation", &rows);
 }

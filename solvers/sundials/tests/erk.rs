@@ -27,7 +27,6 @@ fn the_order_is_eight() {
         record.deviation(Oscillator::exact)
     };
     let order = (error(0.625) / error(0.3125)).log2();
-    println!("{order}");
     assert!((7.5..9.0).contains(&order), "{order}");
 }
 
@@ -38,8 +37,7 @@ fn the_arenstorf_orbit_closes() {
         let times = [0.0, Arenstorf::PERIOD];
         let record = erk(&mut Arenstorf, &times, &Arenstorf::START, &tolerance(relative)).finished(&times);
         let gap = largest_difference(&record.y, &Arenstorf::START);
-        println!("{relative:e}: {gap:.1e} {:?}", record.outcome);
-        assert!(gap < returns, "{gap:e} at {relative:e}");
+        assert!(gap < returns, "{gap:e} at {relative:e}: {:?}", record.outcome);
     }
 }
 
@@ -50,7 +48,6 @@ fn samples_are_as_accurate_as_steps() {
     // times that fit no step
     let times: Vec<f64> = grid(0.0, 10.0, 173).iter().map(|t| t + 0.02 * (7.0 * t).sin() * (10.0 - t) * t / 25.0).collect();
     let record = erk(&mut Oscillator { watched: false }, &times, &Oscillator::START, &options).finished(&times);
-    println!("{:.1e} at the end alone, {:.1e} at all samples", ends.deviation(Oscillator::exact), record.deviation(Oscillator::exact));
     assert!(ends.deviation(Oscillator::exact) < 1e-12);
     assert!(record.deviation(Oscillator::exact) < 1e-12);
     for (_, y, yd) in &record.samples {
@@ -67,7 +64,6 @@ fn projection_keeps_the_pendulum_on_its_circle() {
     assert!(off_circle(&projected) < 1e-15, "{:e}", off_circle(&projected));
     assert!(off_circle(&free) > 1e-9, "{:e}", off_circle(&free));
     let tight = erk(&mut Pendulum { projected: true, watched: false }, &times, &Pendulum::START, &tolerance(1e-12)).finished(&times);
-    println!("{:.1e} {:?}", tight.deviation(Pendulum::exact), tight.outcome);
     assert!(tight.deviation(Pendulum::exact) < 1e-10);
 }
 
