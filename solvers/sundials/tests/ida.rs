@@ -44,7 +44,6 @@ fn robertson_over_eleven_decades() {
     // absolute tolerances far below the values, so that the relative one counts
     let options = IntegrationOptions { absolute_tolerance_factor: 1e-8, ..tested(1e-8) };
     let record = ida(&mut Robertson { events: false }, &times, (&y, &yd), &options).finished(&times);
-    println!("{:?}", record.outcome);
     for ((time, y, _), (_, published)) in record.samples[1..].iter().zip(ROBERTSON) {
         for (y, published) in y.iter().zip(published) {
             assert!((y / published - 1.0).abs() < 1e-5, "{y:e} for {published:e} at {time:e}");
@@ -78,7 +77,6 @@ fn the_pendulum_of_index_two() {
     for (relative, close) in [(1e-6, 1e-3), (1e-8, 1e-5), (1e-10, 1e-7)] {
         let record = ida(&mut Pendulum { projected: false, watched: false }, &times, (&y, &yd), &tolerance(relative)).finished(&times);
         let error = record.deviation(Pendulum::exact);
-        println!("{relative:e}: {error:.1e} {:?}", record.outcome);
         assert!(error < close, "{error:e} at {relative:e}");
         // λ = v² − g y, and the second multiplier vanishes
         for (time, s, _) in &record.samples[1..] {
@@ -116,7 +114,6 @@ fn errors_follow_the_tolerance() {
         let record = ida(&mut Oscillator { watched: false }, &times, OSCILLATOR, &tested(relative)).finished(&times);
         let error = record.deviation(Oscillator::exact);
         let rates = record.samples.iter().map(|(time, _, yd)| largest_difference(yd, &[time.cos(), -time.sin()])).fold(0.0, f64::max);
-        println!("{relative:e}: y {error:.1e}, yd {rates:.1e}, {:?}", record.outcome);
         // local errors of one tolerance add up over some hundred steps
         assert!(error < 500.0 * relative && rates < 500.0 * relative, "{error:e} {rates:e} at {relative:e}");
     }
