@@ -94,7 +94,9 @@ fn corpus() -> Vec<Sample> {
         models.sort();
         for model in models.iter().filter(|m| m.is_dir()) {
             let own = files(model);
-            for first in own.keys() {
+            // a tree with links that only constraints hold is none by itself
+            let held = own.values().any(|text| text.contains("\nconstraints:"));
+            for first in own.keys().filter(|name| !(held && name.ends_with(".urdf"))) {
                 let mut texts = own.clone();
                 // only the tires that the description speaks of are worth spoiling
                 texts.extend(tires.iter().filter(|(name, _)| own[first].contains(*name)).map(|(n, t)| (n.clone(), t.clone())));
@@ -113,6 +115,15 @@ fn corpus() -> Vec<Sample> {
             kind.name
         );
         let texts = [("model.yaml".to_owned(), text), ("tree.urdf".to_owned(), kind.tree.to_owned())].into();
+        let texts = Texts { first: "model.yaml".to_owned(), texts };
+        samples.push(Sample { texts, spoiled: "model.yaml".to_owned() });
+    }
+    for kind in kinds().constraints() {
+        let text = format!(
+            "fastbike: 1\nname: example\nurdf: tree.urdf\nbase: vehicle_base\nstart:\n  frame.forward_speed: 3 m/s\nconstraints:\n  example:\n    {}: {}\n",
+            kind.name, kind.example
+        );
+        let texts = [("model.yaml".to_owned(), text), ("tree.urdf".to_owned(), mbody::assembly::EXAMPLE_TREE.to_owned())].into();
         let texts = Texts { first: "model.yaml".to_owned(), texts };
         samples.push(Sample { texts, spoiled: "model.yaml".to_owned() });
     }
@@ -216,7 +227,7 @@ fn spoiled_inputs_by_the_hundred_thousand() {
 fn mappings(value: &Value, pointer: String, found: &mut Vec<String>) {
     match value {
         Value::Object(entries) => {
-            if !["/elements", "/joints"].contains(&pointer.as_str()) {
+            if !["/elements", "/joints", "/constraints"].contains(&pointer.as_str()) {
                 found.push(pointer.clone());
             }
             entries.iter().for_each(|(key, v)| mappings(v, format!("{pointer}/{key}"), found));

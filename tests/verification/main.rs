@@ -2,6 +2,7 @@
 
 #![allow(non_snake_case)]
 
+mod every_constraint;
 mod every_element;
 mod every_joint;
 mod linear;
@@ -16,6 +17,13 @@ use validation::evidence;
 fn the_table_of_evidence_is_up_to_date() {
     evidence::hold(
         "verification",
-        &[every_joint::EVIDENCE, every_element::EVIDENCE, mechanisms::EVIDENCE, trim::EVIDENCE, linear::EVIDENCE],
+        &[
+            every_joint::EVIDENCE,
+            every_element::EVIDENCE,
+            every_constraint::EVIDENCE,
+            mechanisms::EVIDENCE,
+            trim::EVIDENCE,
+            linear::EVIDENCE,
+        ],
     );
 }

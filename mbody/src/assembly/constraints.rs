@@ -287,7 +287,8 @@ pub struct PointOnPlaneDescription {
 impl ConstraintDescription for PointOnPlaneDescription {
     const KIND: &'static str = "point_on_plane";
     const ABOUT: &'static str = "a point that stays on a plane of another link";
-    const EXAMPLE: &'static str = "{ point: { link: arm, at: [0, 0, 0] }, plane: { link: frame, at: [0, 0, 0.35] }, normal: [0, 0, 1] }";
+    const EXAMPLE: &'static str =
+        "{ point: { link: arm, at: [-0.16, 0, -0.05] }, plane: { link: frame, at: [0, 0, 0.35] }, normal: [0, 0, 1] }";
     fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
         let (point, plane) = (site.frame_at("point", &self.point), site.frame_at("plane", &self.plane));
         let normal = direction(site, "normal", self.normal);
@@ -367,9 +368,15 @@ pub struct RollingDescription {
     crown_radius: Option<NonNegativeQuantity<Length>>,
 }
 
+/// A round body on a link.
+struct RoundBody {
+    center: (BodyIndex, Pose<f64>),
+    profile: Profile,
+    axis: Vec3<f64>,
+}
+
 impl RollingDescription {
-    /// The place of the center, and profile and axis.
-    fn round_body(self, site: &mut Site<'_>) -> Option<((BodyIndex, Pose<f64>), Profile, Vec3<f64>)> {
+    fn round_body(self, site: &mut Site<'_>) -> Option<RoundBody> {
         let place =
             site.link("link", &self.link).map(|(body, X)| (body, X * Pose::new(Rotation::identity(), self.at.map(Quantity::si).into())));
         let axis = direction(site, "axis", self.axis);
@@ -380,9 +387,9 @@ impl RollingDescription {
                 None
             }
         };
-        let (place, axis, profile) = (place?, axis?, profile?);
-        distinct(site, BodyIndex::WORLD, place.0)?;
-        Some((place, profile, axis))
+        let (center, axis, profile) = (place?, axis?, profile?);
+        distinct(site, BodyIndex::WORLD, center.0)?;
+        Some(RoundBody { center, profile, axis })
     }
 }
 
@@ -391,8 +398,8 @@ impl ConstraintDescription for RollingDescription {
     const ABOUT: &'static str = "a disc or torus that rolls without slip on the plane z = 0 of the world";
     const EXAMPLE: &'static str = "{ link: arm, at: [0, 0, 0], axis: [0, 1, 0], radius: 0.3 m, crown_radius: 60 mm }";
     fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
-        let (place, profile, axis) = self.round_body(site)?;
-        Some(held(site, (BodyIndex::WORLD, Pose::identity()), place, Rolling::new(profile, axis)))
+        let RoundBody { center, profile, axis } = self.round_body(site)?;
+        Some(held(site, (BodyIndex::WORLD, Pose::identity()), center, Rolling::new(profile, axis)))
     }
 }
 
@@ -406,8 +413,8 @@ impl ConstraintDescription for SurfaceContactDescription {
     const ABOUT: &'static str = "a disc or torus that touches the plane z = 0 of the world and slides on it without friction";
     const EXAMPLE: &'static str = "{ link: arm, at: [0, 0, 0], axis: [0, 1, 0], radius: 0.3 m }";
     fn assemble(self, site: &mut Site<'_>) -> Option<Constraint> {
-        let (place, profile, axis) = self.0.round_body(site)?;
-        Some(held(site, (BodyIndex::WORLD, Pose::identity()), place, SurfaceContact::new(profile, axis)))
+        let RoundBody { center, profile, axis } = self.0.round_body(site)?;
+        Some(held(site, (BodyIndex::WORLD, Pose::identity()), center, SurfaceContact::new(profile, axis)))
     }
 }
 

@@ -16,5 +16,5 @@ pub use assembled::{Assembled, Override, assemble, assemble_urdf};
 pub use constraints::{ConstraintDescription, ConstraintKind, STANDARD_CONSTRAINTS};
 pub use description::{BaseDescription, Description, schema};
 pub use elements::STANDARD;
-pub use kind::{ElementDescription, ElementKind, Kinds};
+pub use kind::{EXAMPLE_TREE, ElementDescription, ElementKind, Kinds};
 pub use site::{PointDescription, Site};

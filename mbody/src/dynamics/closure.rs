@@ -300,14 +300,28 @@ impl<'a> Closure<'a> {
 }
 
 /// The shortest x with J x = b in the sense of least squares; entries in `held` stay zero.
+///
+/// Complete orthogonal decomposition: `Jᵀ P = Q₁ R₁` with the rank of J, then `R₁ᵀ = Q₂ R₂`; `x = Q₁ R₂⁻¹ Q₂ᵀ Pᵀ b`.
 pub fn least_norm(mut J: DMatrix<f64>, b: &DVector<f64>, held: &[bool]) -> DVector<f64> {
     for (j, _) in held.iter().enumerate().filter(|(_, held)| **held) {
         J.column_mut(j).fill(0.0);
     }
-    let svd = J.svd(true, true);
-    let largest = svd.singular_values.iter().fold(0.0, |m: f64, s| m.max(*s));
-    // both factors were asked for
-    svd.solve(b, 1e-9 * largest.max(1e-12)).unwrap_or_else(|_| DVector::zeros(held.len()))
+    let n = J.ncols();
+    let qr = J.transpose().col_piv_qr();
+    let (Q, R) = (qr.q(), qr.r());
+    let largest = R.diagonal().amax();
+    let rank = R.diagonal().iter().take_while(|d| d.abs() > 1e-9 * largest.max(1e-3)).count();
+    if rank == 0 {
+        return DVector::zeros(n);
+    }
+    let mut pivoted = b.clone();
+    qr.p().permute_rows(&mut pivoted);
+    let second = R.rows(0, rank).transpose().qr();
+    let mut x = second.q().tr_mul(&pivoted);
+    // the diagonal of R₂ is not zero: its rank was counted
+    let solved = second.r().solve_upper_triangular_mut(&mut x);
+    debug_assert!(solved);
+    Q.columns(0, rank) * x
 }
 
 /// Indices of a largest set of independent rows, in order.

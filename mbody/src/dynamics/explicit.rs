@@ -9,7 +9,7 @@
 //! multipliers. Else the whole is solved by Newton's method with exact derivatives, rows of elements included.
 //! Source: Featherstone (2008), section 8.2; E. J. Haug (1989), section 11.2.
 
-use super::closure::tree_row;
+use super::closure::{least_norm, tree_row};
 use super::{Formulation, System, TreePlant};
 use crate::algorithm::crba::crba;
 use nalgebra::{DMatrix, DVector};
@@ -191,9 +191,7 @@ fn solve_regular(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<
     if let Some(x) = matrix.clone().lu().solve(right).filter(good) {
         return Some(x);
     }
-    let svd = matrix.clone().svd(true, true);
-    let largest = svd.singular_values.max();
-    svd.solve(right, 1e-11 * largest).ok().filter(|x| x.iter().all(|x| x.is_finite()))
+    Some(least_norm(matrix.clone(), right, &[])).filter(|x| x.iter().all(|x| x.is_finite()))
 }
 
 impl Newton {
