@@ -95,9 +95,6 @@ pub(super) fn close(model: &Model, constraints: Vec<Constraint>, stated: &[(usiz
         return None;
     }
     let rows = closure.independent(&q);
-    let named = |of: &[(usize, usize)]| -> Vec<String> {
-        of.iter().map(|&(c, r)| format!("`{} of {}`", constraints[c].rows()[r].error, constraints[c].name())).collect()
-    };
     if rows.singular > 0 {
         let message =
             format!("the pose in which the loops close is singular: {} more motions are possible there than nearby", rows.singular);
@@ -105,12 +102,17 @@ pub(super) fn close(model: &Model, constraints: Vec<Constraint>, stated: &[(usiz
             Finding::warning("singular_position", message).at_path("constraints").with_hint("start from another pose, under `start`"),
         );
     }
-    if !rows.redundant.is_empty() {
-        let message = format!(
-            "redundant: {} follow from the other constraints; their reactions are taken as zero",
-            named(&rows.redundant).join(", ")
-        );
-        findings.push(Finding::note("redundant_constraint", message).at_path("constraints"));
+    for (c, constraint) in constraints.iter().enumerate() {
+        let of_this: Vec<&str> = rows.redundant.iter().filter(|r| r.0 == c).map(|&(_, r)| constraint.rows()[r].error.as_ref()).collect();
+        if !of_this.is_empty() {
+            let what = if of_this.len() == constraint.rows().len() {
+                "all of it follows".to_owned()
+            } else {
+                format!("{} follow", of_this.join(", "))
+            };
+            let message = format!("redundant: {what} from the tree and the other constraints; these reactions count as zero");
+            findings.push(Finding::note("redundant_constraint", message).at_path(format!("constraints.{}", constraint.name())));
+        }
     }
     Some(Closed { held: rows.held, q: Some(q), constraints })
 }

@@ -309,8 +309,10 @@ pub fn least_norm(mut J: DMatrix<f64>, b: &DVector<f64>, held: &[bool]) -> DVect
     let n = J.ncols();
     let qr = J.transpose().col_piv_qr();
     let (Q, R) = (qr.q(), qr.r());
-    let largest = R.diagonal().amax();
-    let rank = R.diagonal().iter().take_while(|d| d.abs() > 1e-9 * largest.max(1e-3)).count();
+    // wide where there are more rows than velocities
+    let diagonal = || (0..R.nrows()).map(|i| R[(i, i)].abs());
+    let largest = diagonal().fold(1e-3, f64::max);
+    let rank = diagonal().take_while(|d| *d > 1e-9 * largest).count();
     if rank == 0 {
         return DVector::zeros(n);
     }

@@ -134,6 +134,9 @@ impl ModelBuilder {
             }
         };
         let pair = (find(joint)?, find(leader)?);
+        if pair.0 == pair.1 {
+            return Err(BuildError::FollowsItself { joint: joint.into() });
+        }
         self.follow.push((pair.0, pair.1, ratio, offset));
         Ok(())
     }
