@@ -16,6 +16,9 @@ pub struct ModelArguments {
     /// Override an entry of the description: `element.parameter=value`, `joint.NAME.locked=true`, `link.NAME.mass=9kg` (repeatable)
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Add the reactions of all joints to the signals: `swingarm.force_x` … `swingarm.moment_z`, what the parent exerts on the child
+    #[arg(long)]
+    pub reactions: bool,
 }
 
 /// How results are shown and kept.

@@ -6,6 +6,7 @@ use crate::{Context, Failure};
 use mbody::assembly::{Assembled, BaseDescription, Override, assemble, assemble_urdf};
 use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings};
+use std::sync::Arc;
 
 /// An assembled model and what was said about it.
 #[derive(Debug)]
@@ -64,7 +65,13 @@ pub fn load(arguments: &ModelArguments, context: &Context) -> Result<Loaded, Fai
 pub fn load_on(arguments: &ModelArguments, context: &Context, base: BaseDescription, gravity: f64) -> Result<Loaded, Failure> {
     let (assembled, findings, source) = read_on(&arguments.model, &arguments.set, context, base, gravity)?;
     match assembled {
-        Some(assembled) => Ok(Loaded { name: source.name, assembled, findings }),
+        Some(mut assembled) => {
+            // nobody else has seen the system yet
+            if let Some(system) = Arc::get_mut(&mut assembled.system).filter(|_| arguments.reactions) {
+                system.report_reactions();
+            }
+            Ok(Loaded { name: source.name, assembled, findings })
+        }
         None => Err(Failure::Findings(findings)),
     }
 }

@@ -167,3 +167,16 @@ fn what_was_computed_is_told_where_the_folder_cannot_be_written() {
     assert_eq!(answer.status, 1);
     assert!(answer.stdout.contains("ending: reached") && answer.stderr.contains("could not be written"), "{}", answer.stderr);
 }
+
+#[test]
+fn reactions_of_joints_are_signals_on_request() {
+    let plain = json(&["trim", "gsxr1000", "--format", "json"], 0);
+    assert!(plain["units"].get("front_wheel.force_z").is_none());
+    let report = json(&["trim", "gsxr1000", "--reactions", "--format", "json"], 0);
+    assert_eq!((report["units"]["front_wheel.force_z"].as_str(), report["units"]["front_wheel.moment_y"].as_str()), (Some("N"), Some("N m")));
+    let signals = &report["points"][0]["signals"];
+    let get = |name: &str| number(&signals[name]);
+    // at rest the axle presses the wheel down with what the road carries less its own weight, 11.9 kg
+    assert!((get("front_wheel.force_z") + get("front_tire.normal_force") - 11.9 * 9.81).abs() < 1e-6);
+    assert!(get("front_wheel.force_y").abs() < 1e-6 && get("front_wheel.moment_x").abs() < 1e-6);
+}

@@ -39,7 +39,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         (_, true) => kinds(context),
         (None, false) => bundled(context)?,
         (Some(name), false) => {
-            let model = ModelArguments { model: name.clone(), set: arguments.set.clone() };
+            let model = ModelArguments { model: name.clone(), set: arguments.set.clone(), reactions: false };
             let base = if arguments.floating { BaseDescription::Free } else { BaseDescription::Fixed };
             about(&model::load_on(&model, context, base, 9.81)?.assembled)
         }

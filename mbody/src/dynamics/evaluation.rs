@@ -114,6 +114,10 @@ impl<S: SystemScalar> Evaluation<S> {
         for (tau, effort) in w.tau.iter_mut().zip(&self.joint_efforts) {
             *tau -= *effort;
         }
+        for &(body, first) in &system.reactions {
+            let Wrench { n, f } = w.transmitted[body];
+            self.outputs[first..first + 6].copy_from_slice(&[n.x, n.y, n.z, f.x, f.y, f.z]);
+        }
         let (kinematic, rest) = self.residual.split_at_mut(nq);
         model.layout.reduce(&mut w.tau, &mut rest[..nv]);
         // q̇ − N(q) v, joint by joint, kept for independent coordinates

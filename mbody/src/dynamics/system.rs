@@ -99,6 +99,8 @@ pub struct System {
     pub(crate) multipliers: Vec<Multiplier>,
     /// [constraints] indices of the inputs of each.
     pub(crate) constraint_inputs: Vec<Vec<usize>>,
+    /// Joints whose reactions are outputs: body and first output.
+    pub(crate) reactions: Vec<(usize, usize)>,
     pub(crate) base_unknowns: Vec<Unknown>,
     pub(crate) base_equations: Vec<Equation>,
     pub(crate) form: Arc<Form>,
@@ -133,6 +135,7 @@ impl System {
             constraints: closed.constraints,
             multipliers: Vec::new(),
             constraint_inputs: Vec::new(),
+            reactions: Vec::new(),
             base_unknowns: Vec::new(),
             base_equations: Vec::new(),
             form: Arc::new(empty),
@@ -284,6 +287,37 @@ impl System {
     /// Weight of the moving bodies, N; at least 1.
     fn weight(&self) -> f64 {
         (self.model.total_mass() * self.model.gravity.norm()).max(1.0)
+    }
+
+    /// Adds the reactions of all joints to the outputs: `<joint>.force_x` … `<joint>.moment_z`, what the parent exerts on the child through
+    /// the joint, efforts along its free directions included, about the origin and in the axes of the child's frame.
+    ///
+    /// Joints that leave all six directions free exert nothing and are left out. A name that is taken already gets `reaction_` before the
+    /// quantity. Called again it changes nothing.
+    pub fn report_reactions(&mut self) {
+        const QUANTITIES: [(&str, &str, &str); 6] = [
+            ("moment_x", "N m", "moment of the parent on the child through the joint, about x of the child"),
+            ("moment_y", "N m", "moment of the parent on the child through the joint, about y of the child"),
+            ("moment_z", "N m", "moment of the parent on the child through the joint, about z of the child"),
+            ("force_x", "N", "force of the parent on the child through the joint, along x of the child"),
+            ("force_y", "N", "force of the parent on the child through the joint, along y of the child"),
+            ("force_z", "N", "force of the parent on the child through the joint, along z of the child"),
+        ];
+        if !self.reactions.is_empty() {
+            return;
+        }
+        for body in 1..self.model.bodies.len() {
+            if self.model.bodies[body].v.len() == 6 {
+                continue;
+            }
+            self.reactions.push((body, self.outputs.len()));
+            for (quantity, unit, about) in QUANTITIES {
+                let joint = &self.model.bodies[body].joint_name;
+                let plain = format!("{joint}.{quantity}");
+                let name = if self.find(&plain).is_some() { format!("{joint}.reaction_{quantity}") } else { plain };
+                self.outputs.push(Signal::new(name, unit, about));
+            }
+        }
     }
 
     /// Lets start values be written into the unknowns.
