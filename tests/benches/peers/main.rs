@@ -7,6 +7,7 @@
 
 mod clock;
 mod kernels;
+mod motion;
 mod peer;
 mod plants;
 mod sweep;
@@ -18,5 +19,6 @@ fn main() {
     kernels::run(&mut clock);
     plants::run(&mut clock);
     sweep::run(&mut clock);
+    motion::run(&mut clock);
     peer::print(&clock.finish());
 }

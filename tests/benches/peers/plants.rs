@@ -90,5 +90,7 @@ fn state_matrix(clock: &mut Clock) {
 pub fn run(clock: &mut Clock) {
     residual(clock, "moto11");
     residual(clock, "gsxr1000");
+    residual(clock, "whipple");
+    residual(clock, "gsxr1000_linkage");
     state_matrix(clock);
 }
