@@ -20,7 +20,7 @@ const FIRST_STEP: f64 = 1e-6;
 /// The relative tolerance at which absolute tolerances are those that the signals declare.
 const USUAL_TOLERANCE: f64 = 1e-6;
 /// The total energy, beside the signals of the plant.
-const ENERGY: &str = "system.energy";
+pub const ENERGY: &str = "system.energy";
 /// What table and figure show of a vehicle, where the user does not choose.
 const VEHICLE: [&str; 7] = [
     "chassis.forward_speed",
@@ -89,7 +89,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
     let mut transient = Transient::new(&plant, request.times.clone());
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
-        absolute_tolerance_factor: request.relative_tolerance / USUAL_TOLERANCE,
+        absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),
         first_step: (!explicit).then(|| first_step(&request.times)),
         ..IntegrationOptions::default()
     };
@@ -134,13 +134,21 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
     })
 }
 
+/// What multiplies absolute tolerances.
+///
+/// Those of the implicit form are not tightened: the rounding of a closed loop over a short step is all that a tighter tolerance of the
+/// stabilizing multipliers would ask for.
+fn absolute_factor(relative_tolerance: f64, explicit: bool) -> f64 {
+    let factor = relative_tolerance / USUAL_TOLERANCE;
+    if explicit { factor } else { factor.max(1.0) }
+}
+
 /// First step of an implicit method, s.
 ///
 /// IDA's own choice, half a tolerance over the largest rate, is some 1e-10 s for a mechanism that starts from rest. Over such a step the
 /// rounding of a closed loop (1e-17 m) is a correction of 1e-7 m/s, which no iteration resolves, and shorter steps are worse.
 fn first_step(times: &[f64]) -> f64 {
     let interval = times.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
-    if std::env::var("FS").is_ok() { return std::env::var("FS").unwrap().parse().unwrap(); }
     FIRST_STEP.min(interval)
 }
 

@@ -44,7 +44,7 @@ struct Arguments {
     /// How constraints enter the implicit form: ggl (default), velocity or acceleration; erk takes the explicit form
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
-    /// Relative tolerance; absolute ones go with it
+    /// Relative tolerance
     #[arg(long, value_name = "NUMBER", default_value = "1e-6")]
     rtol: String,
     #[command(flatten)]
@@ -124,7 +124,10 @@ fn times(duration: &str, rate: Option<&str>) -> Result<Vec<f64>, Failure> {
 
 /// Histories of the shown signals, one panel each.
 fn figure(history: &History) -> Result<Figure, Failure> {
-    let panels = history.shown.iter().map(|&s| {
+    // the energy of a conservative system would be a figure of rounding errors
+    let drawn =
+        history.shown.iter().filter(|&&s| history.signals[s].name != motion::ENERGY || history.shown.len() == history.signals.len());
+    let panels = drawn.map(|&s| {
         let signal = &history.signals[s];
         let shown = Angles::Degrees.show(&signal.unit);
         let points = history.time.iter().zip(&history.columns[s]).map(|(&t, &v)| (t, v * shown.factor)).collect();
