@@ -60,7 +60,7 @@ fn the_table_is_short_and_ends_with_the_last_sample() {
     assert_eq!((table.status, table.stderr.as_str()), (0, ""));
     assert!(table.stdout.starts_with("run andrews_squeezer\nISO: x forward"), "{}", table.stdout);
     let rows: Vec<&str> =
-        table.stdout.lines().skip_while(|l| !l.starts_with("time")).skip(2).take_while(|l| !l.contains("samples")).collect();
+        table.stdout.lines().skip_while(|l| !l.trim_start().starts_with("time")).skip(2).take_while(|l| !l.contains("samples")).collect();
     assert_eq!(rows.len(), 25, "{}", table.stdout);
     assert!(rows[0].trim_start().starts_with("0 ") && rows[24].starts_with("0.03 "), "{rows:?}");
     for part in ["given: motor.torque 0.033 N m", "ending: reached 0.03 s", "method: ida, ggl form", "constraints on coordinates: off by"] {
@@ -97,12 +97,12 @@ fn a_formulation_means_nothing_to_the_explicit_form() {
 fn given_values_are_held() {
     let bicycle = json(&["run", "whipple", "--given", "chassis.roll_rate=3deg/s", "--duration", "0.1s", "--format", "json"], 0);
     let start = |name: &str| column(&bicycle, name)[0];
-    // stated as 5 m/s, held exactly; projected onto rolling to rounding
-    assert_eq!((start("chassis.forward_speed"), start("chassis.roll_rate")), (5.0, 3f64.to_radians()));
+    // stated as 5 m/s; held and projected onto rolling to rounding
+    assert!((start("chassis.forward_speed") - 5.0).abs() < 1e-12 && (start("chassis.roll_rate") - 3f64.to_radians()).abs() < 1e-12);
     assert!((start("rear_wheel.spin_rate") - 5.0 / 0.3).abs() < 1e-9);
     let crank = ["run", "n_four_bar", "--given", "coupler_1.angle=-80deg", "--duration", "0.1s", "--format", "json"];
     let linkage = json(&crank, 0);
-    assert_eq!(column(&linkage, "coupler_1.angle")[0], (-80f64).to_radians());
+    assert!((column(&linkage, "coupler_1.angle")[0] - (-80f64).to_radians()).abs() < 1e-12);
     assert!(linkage["warnings"][0].as_str().is_some_and(|w| w.contains("it was left for `crank_0.angle`")), "{}", linkage["warnings"]);
 }
 
@@ -145,17 +145,20 @@ fn what_follows_from_the_others_has_no_start_value() {
     }
 }
 
-/// A prismatic joint that is accelerated without end leaves the range of numbers.
+/// The bicycle falls over; lying flat, its wheels no longer roll on their edges.
 #[test]
 fn a_motion_that_ends_early_is_written_and_ends_with_one() {
     let folder = folder("run_ending");
     let out = folder.join("kept").display().to_string();
-    let more = ["--given", "motor.torque=1e200", "--duration", "1s", "--format", "json", "--out", &out];
-    let report = json(&with(&["run", "andrews_squeezer"], &more), 1);
+    let fall = ["run", "whipple", "--given", "chassis.roll=80deg", "--duration", "3s", "--format", "json", "--out", &out];
+    let report = json(&fall, 1);
     assert_eq!(report["ending"].as_str(), Some("not_converged"));
     assert!(report["because"].as_str().is_some_and(|b| !b.is_empty()));
-    assert!(!report["time"].as_array().expect("times").is_empty());
-    let answer = fastbike(&with(&["run", "andrews_squeezer"], &more));
+    let reached = number(&report["statistics"]["time"]);
+    let time: Vec<f64> = report["time"].as_array().expect("times").iter().map(number).collect();
+    assert!(time.len() > 100 && reached < 3.0 && time.last() == Some(&reached), "{reached} {time:?}");
+    assert_eq!(column(&report, "chassis.roll").len(), time.len());
+    let answer = fastbike(&fall);
     assert!(answer.stderr.starts_with("error: the motion ended at "), "{}", answer.stderr);
     let kept: Value = serde_json::from_str(&fs::read_to_string(folder.join("kept/run.json")).expect("run.json")).expect("JSON");
     assert!(kept["statistics"]["steps"].is_number());
