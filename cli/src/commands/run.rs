@@ -62,6 +62,8 @@ fn command(command: Command) -> Command {
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
+    // the signals shown are our choice
+    let chosen = arguments.record.is_empty();
     let request = motion::Request {
         times: times(&arguments.duration, arguments.rate.as_deref())?,
         relative_tolerance: tolerance(&arguments.rtol)?,
@@ -77,9 +79,11 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let (reached, outcome) = (history.outcome.statistics.time, &history.outcome);
     let ended =
         outcome.because.as_ref().map(|because| format!("error: the motion ended at {reached:.6} s of {} s: {because}\n", outcome.duration));
-    let exit = results::deliver(context, (&arguments.model, &arguments.output), history, figure)?;
+    // unasked for, the energy of a conservative system would be a figure of rounding errors
+    let drawn: Vec<usize> = history.shown.iter().copied().filter(|&s| !chosen || history.signals[s].name != motion::ENERGY).collect();
+    let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| figure(history, &drawn));
     context.console.complain(&ended.unwrap_or_default());
-    Ok(exit)
+    exit
 }
 
 /// A positive quantity behind an option.
@@ -122,12 +126,9 @@ fn times(duration: &str, rate: Option<&str>) -> Result<Vec<f64>, Failure> {
     Ok((0..whole).map(|k| k as f64 / count * end).chain([end]).collect())
 }
 
-/// Histories of the shown signals, one panel each.
-fn figure(history: &History) -> Result<Figure, Failure> {
-    // the energy of a conservative system would be a figure of rounding errors
-    let drawn =
-        history.shown.iter().filter(|&&s| history.signals[s].name != motion::ENERGY || history.shown.len() == history.signals.len());
-    let panels = drawn.map(|&s| {
+/// Histories of some signals, one panel each.
+fn figure(history: &History, drawn: &[usize]) -> Result<Figure, Failure> {
+    let panels = drawn.iter().map(|&s| {
         let signal = &history.signals[s];
         let shown = Angles::Degrees.show(&signal.unit);
         let points = history.time.iter().zip(&history.columns[s]).map(|(&t, &v)| (t, v * shown.factor)).collect();

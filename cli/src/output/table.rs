@@ -184,7 +184,7 @@ pub(super) fn chosen(report: &Report) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample;
+    use super::super::{Results, sample};
     use super::*;
 
     fn text(report: &Report, palette: Palette) -> String {
