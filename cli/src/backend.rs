@@ -1,6 +1,6 @@
 //! Solver backends by name: one row each.
 
-use problem::AlgebraicMethod;
+use problem::{AlgebraicMethod, DaeMethod, OdeMethod};
 
 /// A backend for algebraic systems.
 #[derive(Clone, Copy)]
@@ -30,4 +30,43 @@ pub const ALGEBRAIC: &[AlgebraicBackend] = &[
 /// The backend with this name.
 pub fn algebraic(name: &str) -> Option<&'static AlgebraicBackend> {
     ALGEBRAIC.iter().find(|b| b.name == name)
+}
+
+/// Makes an integrator of either problem form; each task has its own.
+#[derive(Clone, Copy)]
+pub enum Integrator {
+    /// Takes the implicit form, in a formulation of the constraints.
+    Implicit(fn() -> Box<dyn DaeMethod>),
+    /// Takes the explicit form, projected after each step.
+    Explicit(fn() -> Box<dyn OdeMethod>),
+}
+
+/// A backend for integration in time.
+#[derive(Clone, Copy)]
+pub struct IntegrationBackend {
+    /// Name after `--backend`.
+    pub name: &'static str,
+    /// One sentence.
+    pub about: &'static str,
+    /// Makes one.
+    pub make: Integrator,
+}
+
+/// The integrators; the first is the default.
+pub const INTEGRATION: &[IntegrationBackend] = &[
+    IntegrationBackend {
+        name: "ida",
+        about: "SUNDIALS IDA: BDF of variable order, implicit form",
+        make: Integrator::Implicit(|| Box::new(sundials::Ida::default())),
+    },
+    IntegrationBackend {
+        name: "erk",
+        about: "SUNDIALS ARKODE: explicit Runge–Kutta of order 8, explicit form with projection",
+        make: Integrator::Explicit(|| Box::new(sundials::ExplicitRungeKutta::default())),
+    },
+];
+
+/// The integrator with this name.
+pub fn integration(name: &str) -> Option<&'static IntegrationBackend> {
+    INTEGRATION.iter().find(|b| b.name == name)
 }

@@ -9,6 +9,7 @@ pub mod commands;
 pub mod console;
 pub mod library;
 pub mod model;
+pub mod motion;
 pub mod output;
 pub mod plan;
 pub mod plot;

@@ -3,13 +3,12 @@
 
 use crate::arguments::{ModelArguments, OutputArguments, unknown_name};
 use crate::library::Source;
-use crate::output::{self, Options, Report};
+use crate::output::{self, Options, Report, Results};
 use crate::plot::{Figure, FileFormat};
 use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure};
 use mbody::description::Library;
 use mbody::dynamics::{System, TreePlant};
-use problem::Ending;
 use serde_json::json;
 use std::fs;
 use std::path::Path;
@@ -39,40 +38,40 @@ pub fn report(command: &str, model: &str, shown: Vec<usize>, steady: Steady) -> 
     report
 }
 
-/// Prints the report in the axes and the format asked for, then writes figure (`--plot`) and run folder (`--out`).
+/// Prints the results in the axes and the format asked for, then writes figure (`--plot`) and run folder (`--out`).
 ///
-/// Done where at least one point was reached.
-pub fn deliver(
+/// Done where the goal was reached: in a sweep, at one point at least.
+pub fn deliver<R: Results>(
     context: &Context,
     (model, output): (&ModelArguments, &OutputArguments),
-    report: Report,
-    figure: impl FnOnce(&Report) -> Result<Figure, Failure>,
+    report: R,
+    figure: impl FnOnce(&R) -> Result<Figure, Failure>,
 ) -> Result<Exit, Failure> {
     let report = report.in_axes(output.axes);
     let options = Options { palette: context.palette, angles: output.angles() };
     context.console.print(&written(output.format, &report, &options, "standard output")?)?;
     // what was computed is told before anything else can fail
-    context.console.warn(&report.warnings);
+    context.console.warn(report.warnings());
     let figure = output.plot.is_some().then(|| figure(&report)).transpose()?;
     keep(context, (model, output), &report, figure.as_ref())?;
-    match report.points.iter().any(|p| p.ending == Ending::Reached) {
+    match report.reached() {
         true => Ok(Exit::Done),
         false => Ok(Exit::Unreached),
     }
 }
 
-/// The report in one format; `path` is where it goes, for the message.
-fn written(kind: &output::Kind, report: &Report, options: &Options, path: &str) -> Result<Vec<u8>, Failure> {
+/// The results in one format; `path` is where they go, for the message.
+fn written<R: Results>(kind: &output::Kind, report: &R, options: &Options, path: &str) -> Result<Vec<u8>, Failure> {
     let mut text = Vec::new();
-    (kind.write)(report, options, &mut text).map_err(|e| Failure::Write { path: path.to_owned(), cause: e.to_string() })?;
+    R::writer(kind)(report, options, &mut text).map_err(|e| Failure::Write { path: path.to_owned(), cause: e.to_string() })?;
     Ok(text)
 }
 
 /// Writes figure and run folder.
-fn keep(
+fn keep<R: Results>(
     context: &Context,
     (model, output): (&ModelArguments, &OutputArguments),
-    report: &Report,
+    report: &R,
     figure: Option<&Figure>,
 ) -> Result<(), Failure> {
     if let (Some(path), Some(figure)) = (&output.plot, figure) {
@@ -94,7 +93,7 @@ fn keep(
 }
 
 /// Inputs with hashes, version and statistics.
-fn inputs(context: &Context, report: &Report, model: &ModelArguments) -> serde_json::Value {
+fn inputs<R: Results>(context: &Context, report: &R, model: &ModelArguments) -> serde_json::Value {
     let files = Source::find(&model.model).map(|source| {
         let mut names = vec![source.file.clone()];
         let text = source.text(&source.file).unwrap_or_default().into_owned();
@@ -104,15 +103,14 @@ fn inputs(context: &Context, report: &Report, model: &ModelArguments) -> serde_j
             .map(|name| json!({ "file": name, "fnv1a": hash(source.text(&name).unwrap_or_default().as_bytes()) }))
             .collect::<Vec<_>>()
     });
-    let iterations: usize = report.points.iter().map(|p| p.iterations).sum();
     json!({
         "fastbike": env!("CARGO_PKG_VERSION"),
         "arguments": context.arguments,
         "model": model.model,
         "set": model.set,
         "inputs": files.unwrap_or_default(),
-        "statistics": { "points": report.points.len(), "iterations": iterations },
-        "warnings": report.warnings,
+        "statistics": report.statistics(),
+        "warnings": report.warnings(),
     })
 }
 

@@ -6,6 +6,7 @@ mod check;
 mod dynamics;
 mod info;
 mod map;
+mod run;
 mod schema;
 mod trim;
 

@@ -4,6 +4,7 @@ mod check;
 mod dynamics;
 mod info;
 mod map;
+mod run;
 mod schema;
 mod trim;
 
@@ -21,7 +22,7 @@ pub struct Kind {
 }
 
 /// All commands, in the order of the help.
-pub const KINDS: &[Kind] = &[trim::KIND, map::KIND, info::KIND, check::KIND, dynamics::KIND, schema::KIND];
+pub const KINDS: &[Kind] = &[trim::KIND, map::KIND, run::KIND, info::KIND, check::KIND, dynamics::KIND, schema::KIND];
 
 /// Version, profile, processor level and SUNDIALS version.
 fn version() -> String {
@@ -32,7 +33,7 @@ fn version() -> String {
 /// The whole command line.
 pub fn cli() -> Command {
     let root = Command::new("fastbike")
-        .about("Motorcycle handling and stability: steady states by inverse dynamics")
+        .about("Motorcycle handling and stability: steady states by inverse dynamics, motions over time")
         .version(version())
         .subcommand_required(true)
         .arg_required_else_help(true)

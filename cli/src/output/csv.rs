@@ -5,10 +5,11 @@
 //! A value that is not finite or was not computed is an empty cell. With `--versus`, a first column `variant` tells the rows apart.
 
 use super::report::Report;
-use super::{Kind, Options};
+use super::{Kind, Options, history};
 use std::io;
 
-pub(super) const KIND: Kind = Kind { name: "csv", about: "one line per point, SI units and radians", write };
+pub(super) const KIND: Kind =
+    Kind { name: "csv", about: "one line per point, SI units and radians", write, write_history: history::csv::write };
 
 fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = ::csv::Writer::from_writer(out);
@@ -29,7 +30,7 @@ fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()
 }
 
 /// The shortest text that reads back as the same number.
-fn cell(value: f64) -> String {
+pub(super) fn cell(value: f64) -> String {
     if value.is_finite() { format!("{value:?}") } else { String::new() }
 }
 

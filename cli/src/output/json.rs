@@ -3,12 +3,13 @@
 //! A value that is not finite is `null`; `signals` is empty where nothing was computed.
 
 use super::report::{Point, Report};
-use super::{Kind, Options};
+use super::{Kind, Options, history};
 use problem::Ending;
 use serde_json::{Map, Value, json};
 use std::io;
 
-pub(super) const KIND: Kind = Kind { name: "json", about: "one JSON object, SI units and radians", write };
+pub(super) const KIND: Kind =
+    Kind { name: "json", about: "one JSON object, SI units and radians", write, write_history: history::json::write };
 
 fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, &object(report))?;

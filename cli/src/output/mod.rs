@@ -8,6 +8,7 @@
 
 mod axes;
 mod csv;
+mod history;
 mod json;
 mod number;
 mod palette;
@@ -20,10 +21,11 @@ mod units;
 mod versus;
 
 pub use axes::Axes;
+pub use history::{History, Outcome};
 pub use palette::Palette;
 pub use progress::Progress;
 pub use report::{Given, Point, Report, Variant};
-pub use units::{Angles, Shown};
+pub use units::{Angles, Shown, small};
 
 use std::io;
 
@@ -35,11 +37,28 @@ pub struct Kind {
     /// One sentence for the help.
     pub about: &'static str,
     /// Writes a report.
-    pub write: Writer,
+    pub write: Writer<Report>,
+    /// Writes a motion over time.
+    pub write_history: Writer<History>,
 }
 
-/// Writes a report in one format.
-pub type Writer = fn(&Report, &Options, &mut dyn io::Write) -> io::Result<()>;
+/// Writes a result in one format.
+pub type Writer<R> = fn(&R, &Options, &mut dyn io::Write) -> io::Result<()>;
+
+/// What a command found out, before it becomes text.
+pub trait Results: Sized {
+    /// The same with all values referred to `axes`.
+    #[must_use]
+    fn in_axes(self, axes: Axes) -> Self;
+    /// What a format writes it with.
+    fn writer(kind: &Kind) -> Writer<Self>;
+    /// What the reader should know beside the results.
+    fn warnings(&self) -> &[String];
+    /// How much work it was, for the run folder.
+    fn statistics(&self) -> serde_json::Value;
+    /// Whether the goal was reached; of several points, one is enough.
+    fn reached(&self) -> bool;
+}
 
 /// The formats; the first is the default.
 pub const KINDS: &[Kind] = &[table::KIND, json::KIND, csv::KIND];

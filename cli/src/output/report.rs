@@ -1,7 +1,9 @@
 //! The result of an analysis at one or several points, before it becomes text.
 
 use super::axes::Axes;
+use super::{Kind, Results, Writer};
 use problem::{Ending, Signal};
+use serde_json::json;
 use std::borrow::Cow;
 
 /// A quantity that the user prescribed: `speed`, `lean`, or a signal.
@@ -96,10 +98,11 @@ impl Report {
     pub fn signal(&self, name: &str) -> Option<usize> {
         self.signals.iter().position(|s| s.name == name)
     }
+}
 
-    /// The same report with all values, given ones and thresholds included, referred to `axes`.
-    #[must_use]
-    pub fn in_axes(mut self, axes: Axes) -> Self {
+impl Results for Report {
+    /// Given values and thresholds included.
+    fn in_axes(mut self, axes: Axes) -> Self {
         if axes == self.axes {
             return self;
         }
@@ -114,9 +117,26 @@ impl Report {
         self.axes = axes;
         self
     }
+
+    fn writer(kind: &Kind) -> Writer<Self> {
+        kind.write
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    fn statistics(&self) -> serde_json::Value {
+        let iterations: usize = self.points.iter().map(|p| p.iterations).sum();
+        json!({ "points": self.points.len(), "iterations": iterations })
+    }
+
+    fn reached(&self) -> bool {
+        self.points.iter().any(|p| p.ending == Ending::Reached)
+    }
 }
 
 /// The value in the other axes; zero keeps its sign, so that no `-0` is printed.
-fn turned(value: f64, name: &str) -> f64 {
+pub(super) fn turned(value: f64, name: &str) -> f64 {
     if value == 0.0 { value } else { value * super::axes::factor(name) }
 }

@@ -4,11 +4,12 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Point, Report};
-use super::{Angles, Kind, Options, versus};
+use super::{Angles, Kind, Options, history, versus};
 use problem::Ending;
 use std::io;
 
-pub(super) const KIND: Kind = Kind { name: "table", about: "aligned text with units, angles in degrees", write };
+pub(super) const KIND: Kind =
+    Kind { name: "table", about: "aligned text with units, angles in degrees", write, write_history: history::table::write };
 
 /// What a table of several points shows of the signals that exist, where the user does not choose.
 const PREFERRED: [&str; 7] = [
@@ -40,7 +41,7 @@ fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Res
 }
 
 /// `20 m/s`, angles in the chosen unit.
-fn quantity(value: f64, unit: &str, angles: Angles) -> String {
+pub(super) fn quantity(value: f64, unit: &str, angles: Angles) -> String {
     let shown = angles.show(unit);
     format!("{} {}", number(value * shown.factor), shown.unit).trim_end().to_owned()
 }
@@ -106,20 +107,20 @@ fn write_one(report: &Report, point: &Point, options: &Options, out: &mut dyn io
 }
 
 /// A column of a table: name, unit, cells.
-struct Column {
-    name: String,
-    unit: String,
-    cells: Vec<String>,
+pub(super) struct Column {
+    pub(super) name: String,
+    pub(super) unit: String,
+    pub(super) cells: Vec<String>,
 }
 
 impl Column {
-    fn new(name: &str, unit: &str, values: impl Iterator<Item = f64>, angles: Angles) -> Self {
+    pub(super) fn new(name: &str, unit: &str, values: impl Iterator<Item = f64>, angles: Angles) -> Self {
         let shown = angles.show(unit);
         let texts: Vec<String> = values.map(|v| number(v * shown.factor)).collect();
         Self { name: name.to_owned(), unit: shown.unit.to_owned(), cells: aligned(&texts) }
     }
 
-    fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         self.cells.iter().chain([&self.name, &self.unit]).map(|text| text.chars().count()).max().unwrap_or(0)
     }
 }
@@ -183,7 +184,7 @@ pub(super) fn chosen(report: &Report) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample;
+    use super::super::{Results, sample};
     use super::*;
 
     fn text(report: &Report, palette: Palette) -> String {

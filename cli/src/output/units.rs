@@ -30,6 +30,20 @@ impl Angles {
     }
 }
 
+/// How an error of a constraint with this SI unit is shown: mm, deg and their rates.
+pub fn small(unit: &str) -> Shown<'_> {
+    const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+    let (unit, factor) = match unit {
+        "m" => ("mm", 1e3),
+        "m/s" => ("mm/s", 1e3),
+        "rad" => ("deg", DEGREES),
+        "rad/s" => ("deg/s", DEGREES),
+        "-" => ("", 1.0),
+        unit => (unit, 1.0),
+    };
+    Shown { unit, factor }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

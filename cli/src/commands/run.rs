@@ -1,0 +1,162 @@
+//! `run`: a motion over time.
+
+use super::{Kind, read};
+use crate::arguments::{ModelArguments, OutputArguments, argument};
+use crate::output::{Angles, History};
+use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
+use crate::{Context, Exit, Failure, model, motion, results};
+use clap::{ArgMatches, Args, Command};
+use mbody::description::finding::Severity;
+use mbody::description::quantity::dimension::{Frequency, Number, Time};
+use mbody::description::quantity::{Dimensioned, parse_quantity};
+
+/// Row of the table of commands.
+pub const KIND: Kind = Kind { name: "run", command, run };
+
+/// Samples per second, where nobody says otherwise.
+const RATE: f64 = 100.0;
+/// Least intervals between samples, where nobody says otherwise.
+const FEWEST: f64 = 200.0;
+/// Most samples.
+const MOST: f64 = 1e6;
+
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+struct Arguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    /// How long
+    #[arg(long, value_name = "TIME", default_value = "5s")]
+    duration: String,
+    /// Samples per second; left out: 100 Hz, or more where the motion is short
+    #[arg(long, value_name = "FREQUENCY")]
+    rate: Option<String>,
+    /// Start value of a coordinate, velocity or state, which is held while the rest is brought onto the constraints; or a constant
+    /// input: `steer.torque=1` (repeatable)
+    #[arg(long, value_name = "SIGNAL=VALUE", allow_hyphen_values = true)]
+    given: Vec<String>,
+    /// Signals to record: any of `fastbike info`, `rate(SIGNAL)` of an unknown, `system.energy`; left out: all (repeatable)
+    #[arg(long, value_name = "SIGNAL")]
+    record: Vec<String>,
+    /// Solver: ida (implicit) or erk (explicit Runge–Kutta)
+    #[arg(long, default_value = "ida")]
+    backend: String,
+    /// How constraints enter the implicit form: ggl (default), velocity or acceleration; erk takes the explicit form
+    #[arg(long, value_name = "NAME")]
+    formulation: Option<String>,
+    /// Relative tolerance
+    #[arg(long, value_name = "NUMBER", default_value = "1e-6")]
+    rtol: String,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+fn command(command: Command) -> Command {
+    Arguments::augment_args(command).about("Motion over time from the start values").after_help(
+        "The motion starts from `start` of the description and the design pose, with constant inputs.\n\n\
+         Examples:\n  fastbike run andrews_squeezer --duration 30ms --given motor.torque=0.033\n  \
+         fastbike run whipple --given chassis.roll_rate=0.05 --plot run.svg\n  \
+         fastbike run pendulum --backend erk --rtol 1e-9 --record system.energy --format csv",
+    )
+}
+
+fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
+    let arguments: Arguments = read(matches)?;
+    // the signals shown are our choice
+    let chosen = arguments.record.is_empty();
+    let request = motion::Request {
+        times: times(&arguments.duration, arguments.rate.as_deref())?,
+        relative_tolerance: tolerance(&arguments.rtol)?,
+        backend: arguments.backend,
+        formulation: arguments.formulation,
+        given: arguments.given,
+        record: arguments.record,
+    };
+    arguments.output.check()?;
+    let loaded = model::load(&arguments.model, context)?;
+    let mut history = motion::run(&request, &loaded.assembled.system, &loaded.name)?;
+    history.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(|f| f.to_string()));
+    let (reached, outcome) = (history.outcome.statistics.time, &history.outcome);
+    let ended =
+        outcome.because.as_ref().map(|because| format!("error: the motion ended at {reached:.6} s of {} s: {because}\n", outcome.duration));
+    // unasked for, the energy of a conservative system would be a figure of rounding errors
+    let drawn: Vec<usize> = history.shown.iter().copied().filter(|&s| !chosen || history.signals[s].name != motion::ENERGY).collect();
+    let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| figure(history, &drawn));
+    context.console.complain(&ended.unwrap_or_default());
+    exit
+}
+
+/// A positive quantity behind an option.
+fn positive<D: Dimensioned>(option: &str, text: &str) -> Result<f64, Failure> {
+    match parse_quantity(text, D::DIMENSION) {
+        Ok(value) if value > 0.0 => Ok(value),
+        Ok(value) => {
+            let why = format!("`{value}` is out of range: it must be greater than 0");
+            Err(argument(option, text, "out_of_range", why).into())
+        }
+        Err(e) => Err(argument(option, text, e.code(), e.to_string()).with_hint_from(e.hint()).into()),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, Failure> {
+    let value = positive::<Number>("rtol", text)?;
+    match (1e-13..=0.1).contains(&value) {
+        true => Ok(value),
+        false => {
+            let why = format!("a relative tolerance of `{value}` is out of range: it must be from 1e-13 to 0.1");
+            Err(argument("rtol", text, "out_of_range", why).into())
+        }
+    }
+}
+
+/// Sampling times: whole periods, and the end.
+fn times(duration: &str, rate: Option<&str>) -> Result<Vec<f64>, Failure> {
+    let end = positive::<Time>("duration", duration)?;
+    let count = match rate {
+        Some(rate) => end * positive::<Frequency>("rate", rate)?,
+        None => (end * RATE).max(FEWEST),
+    };
+    if count > MOST {
+        let finding =
+            argument("duration", duration, "too_many_points", format!("that is {count:.0} samples; at most {MOST:.0} are accepted"));
+        return Err(finding.with_hint("a lower rate, for example `--rate 10Hz`, or a shorter duration").into());
+    }
+    // a last period that is lost in rounding is none
+    let whole = (count * (1.0 - 1e-12)).ceil() as usize;
+    Ok((0..whole).map(|k| k as f64 / count * end).chain([end]).collect())
+}
+
+/// Histories of some signals, one panel each.
+fn figure(history: &History, drawn: &[usize]) -> Result<Figure, Failure> {
+    let panels = drawn.iter().map(|&s| {
+        let signal = &history.signals[s];
+        let shown = Angles::Degrees.show(&signal.unit);
+        let points = history.time.iter().zip(&history.columns[s]).map(|(&t, &v)| (t, v * shown.factor)).collect();
+        let curve = Curve { name: signal.name.clone(), points, markers: Markers::Never };
+        LinePanel { y: Axis::new(signal.name.clone(), shown.unit), curves: vec![curve] }
+    });
+    Ok(Figure::Lines(Lines {
+        title: format!("Motion of {}", history.model),
+        x: Axis::new("time", "s"),
+        panels: panels.collect(),
+        bands: Vec::new(),
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_whole_periods_and_the_end() {
+        let count = |duration, rate| times(duration, rate).map(|t| (t.len(), t[1], t[t.len() - 1])).ok();
+        assert_eq!(count("5s", None), Some((501, 0.01, 5.0)));
+        assert_eq!(count("30ms", None).map(|c| (c.0, c.2)), Some((201, 0.03)));
+        assert_eq!(count("1s", Some("3Hz")), Some((4, 1.0 / 3.0, 1.0)));
+        assert_eq!(count("1s", Some("2.5Hz")), Some((4, 0.4, 1.0)));
+        assert_eq!(count("1s", Some("0.1Hz")), Some((2, 1.0, 1.0)));
+        for (duration, rate) in [("0s", None), ("5m", None), ("5s", Some("-1Hz")), ("5s", Some("1GHz")), ("1e9s", None)] {
+            assert!(times(duration, rate).is_err(), "{duration} {rate:?}");
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! One JSON object, SI units and radians. A value that is not finite is `null`.
+
+use super::{History, Outcome};
+use crate::output::Options;
+use analyses::transient::Worst;
+use serde_json::{Map, Value, json};
+use std::io;
+
+pub(in crate::output) fn write(history: &History, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, &object(history))?;
+    writeln!(out)
+}
+
+fn object(history: &History) -> Value {
+    let outcome = &history.outcome;
+    let given: Map<String, Value> = history.given.iter().map(|(g, v)| (g.name.clone(), json!(v))).collect();
+    let given_units: Map<String, Value> = history.given.iter().map(|(g, _)| (g.name.clone(), json!(g.unit))).collect();
+    let units: Map<String, Value> = history.signals.iter().map(|s| (s.name.clone(), json!(s.unit))).collect();
+    let signals: Map<String, Value> = history.signals.iter().zip(&history.columns).map(|(s, c)| (s.name.clone(), json!(c))).collect();
+    let limits = outcome.limits.iter();
+    let mut object = json!({
+        "fastbike": env!("CARGO_PKG_VERSION"),
+        "command": "run",
+        "model": history.model,
+        "axes": history.axes.name(),
+        "given": given,
+        "given_units": given_units,
+        "backend": outcome.backend,
+        "formulation": outcome.formulation,
+        "rtol": outcome.relative_tolerance,
+        "ending": outcome.ending,
+    });
+    if let Some(because) = &outcome.because {
+        object["because"] = because.as_str().into();
+    }
+    object["statistics"] = statistics(outcome);
+    object["drift"] = json!({ "position": worst(outcome.drift.position.as_ref()), "velocity": worst(outcome.drift.velocity.as_ref()) });
+    object["limits"] =
+        limits.map(|l| json!({ "name": l.name, "signal": l.signal, "value": l.value, "threshold": l.threshold, "time": l.time })).collect();
+    object["warnings"] = json!(history.warnings);
+    object["units"] = units.into();
+    object["time"] = json!(history.time);
+    object["signals"] = signals.into();
+    object
+}
+
+/// Time reached and work done.
+pub(super) fn statistics(outcome: &Outcome) -> Value {
+    let s = &outcome.statistics;
+    json!({
+        "time": s.time,
+        "duration": outcome.duration,
+        "steps": s.steps,
+        "rejected": s.rejected,
+        "convergence_failures": s.convergence_failures,
+        "residuals": s.residuals,
+        "jacobians": s.jacobians,
+        "iterations": s.iterations,
+        "wall_s": outcome.wall,
+    })
+}
+
+/// The row that was off most, or `null` where there is no row.
+fn worst(worst: Option<&Worst>) -> Value {
+    worst.map_or(Value::Null, |w| json!({ "row": w.off.row, "by": w.off.by, "unit": w.off.unit, "time": w.time }))
+}

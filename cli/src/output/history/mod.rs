@@ -1,0 +1,94 @@
+//! A motion over time, before it becomes text.
+
+pub(super) mod csv;
+pub(super) mod json;
+pub(super) mod table;
+
+use super::axes::Axes;
+use super::report::turned;
+use super::{Given, Kind, Results, Writer};
+use analyses::transient::{Drift, LimitMet};
+use problem::{IntegrationOutcome, Signal};
+
+/// How an integration went.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Name of the backend.
+    pub backend: &'static str,
+    /// Name of the formulation of the constraints, or `explicit`.
+    pub formulation: &'static str,
+    /// Relative tolerance.
+    pub relative_tolerance: f64,
+    /// Name of the ending.
+    pub ending: &'static str,
+    /// The cause, where the end was not reached.
+    pub because: Option<String>,
+    /// Time asked for, s.
+    pub duration: f64,
+    /// Time reached and work done.
+    pub statistics: IntegrationOutcome,
+    /// Time that passed meanwhile, s.
+    pub wall: f64,
+    /// Largest errors of the constraints.
+    pub drift: Drift,
+    /// Limits that were met.
+    pub limits: Vec<LimitMet>,
+}
+
+/// Signals over time, and how they were found. Values are SI.
+#[derive(Clone, Debug)]
+pub struct History {
+    /// Name of the model.
+    pub model: String,
+    /// Axes to which the values refer.
+    pub axes: Axes,
+    /// What was prescribed, with its value.
+    pub given: Vec<(Given, f64)>,
+    /// The recorded signals.
+    pub signals: Vec<Signal>,
+    /// Indices of the signals that table and figure show.
+    pub shown: Vec<usize>,
+    /// Sampling times, s.
+    pub time: Vec<f64>,
+    /// One column per signal, one value per time.
+    pub columns: Vec<Vec<f64>>,
+    /// How it went.
+    pub outcome: Outcome,
+    /// What the reader should know beside the results. The table leaves them to standard error.
+    pub warnings: Vec<String>,
+}
+
+impl Results for History {
+    fn in_axes(mut self, axes: Axes) -> Self {
+        if axes == self.axes {
+            return self;
+        }
+        for (given, value) in &mut self.given {
+            *value = turned(*value, &given.name);
+        }
+        for (column, signal) in self.columns.iter_mut().zip(&self.signals) {
+            column.iter_mut().for_each(|v| *v = turned(*v, &signal.name));
+        }
+        for limit in &mut self.outcome.limits {
+            (limit.value, limit.threshold) = (turned(limit.value, &limit.signal), turned(limit.threshold, &limit.signal));
+        }
+        self.axes = axes;
+        self
+    }
+
+    fn writer(kind: &Kind) -> Writer<Self> {
+        kind.write_history
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    fn statistics(&self) -> serde_json::Value {
+        json::statistics(&self.outcome)
+    }
+
+    fn reached(&self) -> bool {
+        self.outcome.because.is_none()
+    }
+}

@@ -1,0 +1,197 @@
+//! `run`: formats, start values, backends, endings.
+
+use super::{evidence, fastbike, folder, json, keys, number};
+use serde_json::Value;
+use std::fs;
+
+const SQUEEZER: [&str; 6] = ["run", "andrews_squeezer", "--duration", "30ms", "--given", "motor.torque=0.033"];
+
+fn with<'a>(base: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+    base.iter().chain(more).copied().collect()
+}
+
+fn column(report: &Value, name: &str) -> Vec<f64> {
+    report["signals"][name].as_array().unwrap_or_else(|| panic!("`{name}` is missing")).iter().map(number).collect()
+}
+
+fn last(report: &Value, name: &str) -> f64 {
+    column(report, name).last().copied().expect("samples")
+}
+
+#[test]
+fn json_has_the_keys_of_the_contract() {
+    let report = json(&with(&SQUEEZER, &["--format", "json"]), 0);
+    for key in ["fastbike", "command", "model", "units", "ending", "time", "signals", "statistics", "drift", "limits", "warnings"] {
+        assert!(report.get(key).is_some(), "`{key}` is missing");
+    }
+    assert_eq!((report["command"].as_str(), report["model"].as_str()), (Some("run"), Some("andrews_squeezer")));
+    assert_eq!((report["ending"].as_str(), report.get("because")), (Some("reached"), None));
+    assert_eq!((report["backend"].as_str(), report["formulation"].as_str()), (Some("ida"), Some("ggl")));
+    assert_eq!(number(&report["given"]["motor.torque"]), 0.033);
+    assert_eq!(keys(&report["signals"]), keys(&report["units"]));
+    let time = report["time"].as_array().expect("times");
+    assert_eq!((time.len(), number(&time[0]), number(&time[200])), (201, 0.0, 0.03));
+    for name in keys(&report["signals"]) {
+        assert_eq!(column(&report, name).len(), time.len(), "{name}");
+        assert!(!name.ends_with("_correction"), "{name}");
+    }
+    for key in ["time", "steps", "rejected", "residuals", "jacobians", "wall_s"] {
+        assert!(report["statistics"][key].is_number(), "`{key}` is missing");
+    }
+    assert!(column(&report, "motor.torque").iter().all(|&t| t == 0.033));
+}
+
+#[test]
+fn csv_has_units_in_its_header_and_every_sample() {
+    let record = ["--record", "beta.angle", "--record", "rate(beta.rate)", "--record", "system.energy"];
+    let csv = fastbike(&with(&with(&SQUEEZER, &record), &["--format", "csv", "--rate", "1kHz"]));
+    assert_eq!((csv.status, csv.stderr.as_str()), (0, ""));
+    let mut lines = csv.stdout.lines();
+    assert_eq!(lines.next(), Some("time [s],beta.angle [rad],rate(beta.rate) [rad/s/s],system.energy [J]"));
+    let rows: Vec<Vec<f64>> = lines.map(|l| l.split(',').map(|c| c.parse().expect("a number")).collect()).collect();
+    assert_eq!((rows.len(), rows[0][1], rows[30][0]), (31, -0.061_713_890_014_276_45, 0.03));
+    // published: a crank acceleration of 14222 rad/s² at the start
+    assert!((rows[0][2] - 14222.4).abs() < 0.5, "{}", rows[0][2]);
+}
+
+#[test]
+fn the_table_is_short_and_ends_with_the_last_sample() {
+    let table = fastbike(&SQUEEZER);
+    assert_eq!((table.status, table.stderr.as_str()), (0, ""));
+    assert!(table.stdout.starts_with("run andrews_squeezer\nISO: x forward"), "{}", table.stdout);
+    let rows: Vec<&str> =
+        table.stdout.lines().skip_while(|l| !l.trim_start().starts_with("time")).skip(2).take_while(|l| !l.contains("samples")).collect();
+    assert_eq!(rows.len(), 25, "{}", table.stdout);
+    assert!(rows[0].trim_start().starts_with("0 ") && rows[24].starts_with("0.03 "), "{rows:?}");
+    for part in ["given: motor.torque 0.033 N m", "ending: reached 0.03 s", "method: ida, ggl form", "constraints on coordinates: off by"] {
+        assert!(table.stdout.contains(part), "`{part}` is missing\n{}", table.stdout);
+    }
+}
+
+/// Different forms and methods follow the same motion, and the work of the motor is the gain of energy.
+#[test]
+fn every_backend_and_formulation_finds_the_same() {
+    let reference = json(&with(&SQUEEZER, &["--format", "json", "--backend", "erk", "--rtol", "1e-11"]), 0);
+    assert_eq!(reference["formulation"].as_str(), Some("explicit"));
+    let angle = last(&reference, "beta.angle");
+    let work = 0.033 * (angle - column(&reference, "beta.angle")[0]);
+    let energy = last(&reference, "system.energy") - column(&reference, "system.energy")[0];
+    // a tolerance of 1e-11 over some hundred steps, against an energy of some joules
+    assert!((work - energy).abs() < 1e-8, "{work} {energy}");
+    for formulation in ["ggl", "velocity", "acceleration"] {
+        let report = json(&with(&SQUEEZER, &["--format", "json", "--formulation", formulation, "--rtol", "1e-8"]), 0);
+        // 16 rad under a relative tolerance of 1e-8 per step, about 1000 steps; the mechanism amplifies errors
+        assert!((last(&report, "beta.angle") - angle).abs() < 1e-3, "{formulation}: {} {angle}", last(&report, "beta.angle"));
+    }
+}
+
+#[test]
+fn a_formulation_means_nothing_to_the_explicit_form() {
+    let answer = fastbike(&["run", "pendulum", "--duration", "0.1s", "--backend", "erk", "--formulation", "ggl"]);
+    assert_eq!(answer.status, 0);
+    assert!(answer.stderr.starts_with("warning: `erk` takes the explicit form"), "{}", answer.stderr);
+}
+
+/// What is given comes beside what is stated where both go together, else instead of it.
+#[test]
+fn given_values_are_held() {
+    let bicycle = json(&["run", "whipple", "--given", "chassis.roll_rate=3deg/s", "--duration", "0.1s", "--format", "json"], 0);
+    let start = |name: &str| column(&bicycle, name)[0];
+    // stated as 5 m/s; held and projected onto rolling to rounding
+    assert!((start("chassis.forward_speed") - 5.0).abs() < 1e-12 && (start("chassis.roll_rate") - 3f64.to_radians()).abs() < 1e-12);
+    assert!((start("rear_wheel.spin_rate") - 5.0 / 0.3).abs() < 1e-9);
+    let crank = ["run", "n_four_bar", "--given", "coupler_1.angle=-80deg", "--duration", "0.1s", "--format", "json"];
+    let linkage = json(&crank, 0);
+    assert!((column(&linkage, "coupler_1.angle")[0] - (-80f64).to_radians()).abs() < 1e-12);
+    assert!(linkage["warnings"][0].as_str().is_some_and(|w| w.contains("it was left for `crank_0.angle`")), "{}", linkage["warnings"]);
+}
+
+#[test]
+fn a_start_that_cannot_be_closed_is_wrong_input() {
+    let both = ["--given", "crank_0.angle=90deg", "--given", "coupler_1.angle=-60deg"];
+    let answer = fastbike(&with(&["run", "n_four_bar"], &both));
+    assert_eq!((answer.status, answer.stdout.as_str()), (2, ""), "{}", answer.stderr);
+    for part in ["error[open_start]", " mm", "held: `crank_0.angle` (--given), `coupler_1.angle` (--given)"] {
+        assert!(answer.stderr.contains(part), "`{part}` is missing in\n{}", answer.stderr);
+    }
+}
+
+#[test]
+fn wrong_words_are_told_with_the_nearest_known_ones() {
+    let cases: [(&[&str], &str); 9] = [
+        (&["--backend", "idaa"], "`ida`"),
+        (&["--formulation", "glg"], "`ggl`"),
+        (&["--record", "pendulum.angel"], "`pendulum.angle`"),
+        (&["--record", "system.enrgy"], "`system.energy`"),
+        (&["--given", "pendulum.angl=1"], "`pendulum.angle`"),
+        (&["--given", "pendulum.angle=1 m"], "an angle (rad)"),
+        (&["--given", "pendulum.angle"], "SIGNAL=VALUE"),
+        (&["--duration", "5 m"], "a time (s)"),
+        (&["--rtol", "0"], "--rtol 0"),
+    ];
+    for (arguments, expected) in cases {
+        let answer = fastbike(&with(&["run", "pendulum"], arguments));
+        assert_eq!((answer.status, answer.stdout.as_str()), (2, ""), "{arguments:?}");
+        assert!(answer.stderr.contains(expected), "{arguments:?}\n{}", answer.stderr);
+    }
+}
+
+#[test]
+fn what_follows_from_the_others_has_no_start_value() {
+    for name in ["pin_k3.force_z", "spring.length", "rate(beta.angle)"] {
+        let answer = fastbike(&["run", "andrews_squeezer", "--given", &format!("{name}=1")]);
+        assert_eq!(answer.status, 2, "{name}");
+        assert!(answer.stderr.contains("error[wrong_role]"), "{}", answer.stderr);
+    }
+}
+
+/// The bicycle falls over; lying flat, its wheels no longer roll on their edges.
+#[test]
+fn a_motion_that_ends_early_is_written_and_ends_with_one() {
+    let folder = folder("run_ending");
+    let out = folder.join("kept").display().to_string();
+    let fall = ["run", "whipple", "--given", "chassis.roll=80deg", "--duration", "3s", "--format", "json", "--out", &out];
+    let report = json(&fall, 1);
+    assert_eq!(report["ending"].as_str(), Some("not_converged"));
+    assert!(report["because"].as_str().is_some_and(|b| !b.is_empty()));
+    let reached = number(&report["statistics"]["time"]);
+    let time: Vec<f64> = report["time"].as_array().expect("times").iter().map(number).collect();
+    assert!(time.len() > 100 && reached < 3.0 && time.last() == Some(&reached), "{reached} {time:?}");
+    assert_eq!(column(&report, "chassis.roll").len(), time.len());
+    let answer = fastbike(&fall);
+    assert!(answer.stderr.starts_with("error: the motion ended at "), "{}", answer.stderr);
+    let kept: Value = serde_json::from_str(&fs::read_to_string(folder.join("kept/run.json")).expect("run.json")).expect("JSON");
+    assert!(kept["statistics"]["steps"].is_number());
+    assert!(folder.join("kept/results.csv").exists());
+}
+
+#[test]
+fn sae_axes_turn_samples_and_given_values() {
+    let turn = ["run", "whipple", "--given", "steer.torque=0.1", "--duration", "0.1s", "--format", "json"];
+    let (iso, sae) = (json(&turn, 0), json(&with(&turn, &["--axes", "sae"]), 0));
+    assert_eq!(number(&sae["given"]["steer.torque"]), -0.1);
+    assert_eq!(last(&sae, "steer.angle"), -last(&iso, "steer.angle"));
+    assert_eq!(last(&sae, "chassis.roll"), last(&iso, "chassis.roll"));
+}
+
+#[test]
+fn histories_are_drawn() {
+    let folder = folder("run_figure");
+    for (name, magic) in [("run.svg", &b"<svg"[..]), ("run.png", &b"\x89PNG\r\n\x1a\n"[..])] {
+        let path = folder.join(name);
+        let answer = fastbike(&with(&SQUEEZER, &["--plot", &path.display().to_string()]));
+        assert_eq!(answer.status, 0, "{}", answer.stderr);
+        assert!(fs::read(&path).is_ok_and(|bytes| bytes.starts_with(magic)), "{name}");
+    }
+}
+
+/// A plain URDF starts in its reference pose.
+#[test]
+fn a_plain_urdf_falls() {
+    let urdf = evidence("reference/mechanisms/double_pendulum_3d.urdf").display().to_string();
+    let report = json(&["run", &urdf, "--given", "shoulder.angle=20deg", "--duration", "1s", "--format", "json"], 0);
+    let energy = column(&report, "system.energy");
+    // a tolerance of 1e-6 over some hundred steps
+    let scale = energy.iter().fold(1.0_f64, |m, e| m.max(e.abs()));
+    assert!(energy.iter().all(|e| (e - energy[0]).abs() < 1e-3 * scale), "{energy:?}");
+}
