@@ -2,10 +2,11 @@
 
 mod dynamics;
 mod linear;
+mod motion;
 mod signs;
 mod source;
 
 use validation::evidence::Row;
 
 /// Rows of the table.
-pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE];
+pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE, motion::EVIDENCE];
