@@ -26,7 +26,9 @@ impl By {
     fn options(self) -> IntegrationOptions {
         let (Self::Erk(relative_tolerance, absolute_tolerance_factor) | Self::Ida(relative_tolerance, absolute_tolerance_factor)) = self;
         let algebraic = AlgebraicErrors::Suppressed;
-        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 1_000_000, algebraic, ..Default::default() }
+        // IDA's own first step is that of a change by the tolerance: too short to tell forces of constraints from rounding
+        let first_step = matches!(self, Self::Ida(..)).then_some(1e-6);
+        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, first_step, max_steps: 1_000_000, algebraic, ..Default::default() }
     }
 }
 

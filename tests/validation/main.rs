@@ -9,6 +9,7 @@ mod gsxr1000_cornering;
 mod gsxr1000_linkage;
 mod mechanisms;
 mod moto11;
+mod motions;
 mod ref11;
 mod rolling_disc;
 mod sel04;
