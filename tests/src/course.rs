@@ -28,7 +28,7 @@ impl By {
         let algebraic = AlgebraicErrors::Suppressed;
         // IDA's own first step is that of a change by the tolerance: too short to tell forces of constraints from rounding
         let first_step = matches!(self, Self::Ida(..)).then_some(1e-6);
-        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, first_step, max_steps: 1_000_000, algebraic, ..Default::default() }
+        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, first_step, max_steps: 50_000, algebraic, ..Default::default() }
     }
 }
 
