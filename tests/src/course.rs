@@ -6,7 +6,8 @@ use analyses::Variables;
 use analyses::transient::{Constant, Method, Simulation, Start, Transient, Worst};
 use fastbike::library::Source;
 use fastbike::standard_kinds;
-use mbody::assembly::assemble;
+use mbody::assembly::{BaseDescription, assemble, assemble_urdf};
+use mbody::description::Library;
 use mbody::dynamics::{Account, Formulation, System, TreePlant};
 use mbody::spatial::Vec3;
 use problem::{AlgebraicErrors, At, Dae, IntegrationOptions};
@@ -40,13 +41,16 @@ pub struct Course {
     u: Vec<f64>,
 }
 
-/// A bundled model, or a description of the repository by its path from the top.
+/// A bundled model; the tree of a plain URDF flies freely.
 ///
 /// # Panics
 /// It does not assemble.
 pub fn system(model: &str) -> Arc<System> {
     let source = Source::find(model).unwrap_or_else(|findings| panic!("{findings}"));
-    let (assembled, findings) = assemble(&source.file, &source, &standard_kinds(), &[]);
+    let (assembled, findings) = match source.is_urdf() {
+        true => assemble_urdf(&source.file, &source.text(&source.file).unwrap_or_default(), BaseDescription::Free, 9.81, &[]),
+        false => assemble(&source.file, &source, &standard_kinds(), &[]),
+    };
     assembled.unwrap_or_else(|| panic!("{model}: {findings}")).system
 }
 

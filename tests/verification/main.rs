@@ -2,8 +2,10 @@
 
 #![allow(non_snake_case)]
 
+mod bundled;
 mod every_element;
 mod every_joint;
+mod invariance;
 mod linear;
 mod mechanisms;
 mod motion;
@@ -16,6 +18,14 @@ use validation::evidence;
 fn the_table_of_evidence_is_up_to_date() {
     evidence::hold(
         "verification",
-        &[every_joint::EVIDENCE, every_element::EVIDENCE, mechanisms::EVIDENCE, trim::EVIDENCE, linear::EVIDENCE],
+        &[
+            every_joint::EVIDENCE,
+            every_element::EVIDENCE,
+            mechanisms::EVIDENCE,
+            trim::EVIDENCE,
+            linear::EVIDENCE,
+            bundled::EVIDENCE,
+            invariance::EVIDENCE,
+        ],
     );
 }
