@@ -1,5 +1,6 @@
 //! The benchmark bicycle `whipple`: linear equations, eigenvalues, one published nonlinear state, one published motion.
 
+mod circles;
 mod dynamics;
 mod linear;
 mod motion;
@@ -9,4 +10,4 @@ mod source;
 use validation::evidence::Row;
 
 /// Rows of the table.
-pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE, motion::EVIDENCE];
+pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE, motion::EVIDENCE, circles::EVIDENCE];
