@@ -173,7 +173,10 @@ fn reactions_of_joints_are_signals_on_request() {
     let plain = json(&["trim", "gsxr1000", "--format", "json"], 0);
     assert!(plain["units"].get("front_wheel.force_z").is_none());
     let report = json(&["trim", "gsxr1000", "--reactions", "--format", "json"], 0);
-    assert_eq!((report["units"]["front_wheel.force_z"].as_str(), report["units"]["front_wheel.moment_y"].as_str()), (Some("N"), Some("N m")));
+    assert_eq!(
+        (report["units"]["front_wheel.force_z"].as_str(), report["units"]["front_wheel.moment_y"].as_str()),
+        (Some("N"), Some("N m"))
+    );
     let signals = &report["points"][0]["signals"];
     let get = |name: &str| number(&signals[name]);
     // at rest the axle presses the wheel down with what the road carries less its own weight, 11.9 kg

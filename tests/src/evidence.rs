@@ -4,6 +4,7 @@
 //! compile. Each test target holds its part of `tests/README.md`; with `UPDATE_EVIDENCE=1` it rewrites that part.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 use std::{env, fs};
 
 /// One claim.
@@ -49,12 +50,22 @@ fn table(rows: &[&[Row]]) -> String {
 /// # Panics
 /// The part is missing or stale.
 pub fn hold(part: &str, rows: &[&[Row]]) {
+    hold_text(part, &table(rows));
+}
+
+/// Holds one part of `tests/README.md` to a text that a test makes.
+///
+/// # Panics
+/// The part is missing or stale.
+pub fn hold_text(part: &str, fresh: &str) {
+    // tests of one binary run at the same time
+    static FILE: Mutex<()> = Mutex::new(());
+    let _alone = FILE.lock();
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let text = fs::read_to_string(&path).expect("tests/README.md can be read");
     let (open, close) = (format!("<!-- {part}: made from the tests -->\n"), format!("<!-- end of {part} -->"));
     let parts = text.split_once(&open).and_then(|(before, rest)| rest.split_once(&close).map(|(inside, after)| (before, inside, after)));
     let Some((before, inside, after)) = parts else { panic!("tests/README.md has no part `{part}`") };
-    let fresh = table(rows);
     if inside == fresh {
         return;
     }

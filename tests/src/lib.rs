@@ -2,6 +2,7 @@
 //!
 //! - [`reference`](mod@reference): published numbers as files;
 //! - [`agreement`]: comparisons whose tolerances have reasons, and the worst deviation of each;
+//! - [`course`]: motions over time, their energies and the drift of their constraints;
 //! - [`instant`]: a model at one instant, with constraints, accelerations and forces;
 //! - [`tree`]: the tree of a model alone, in a motion given by signal names;
 //! - [`vehicle`]: bundled vehicles, their steady states by the names of their signals;
@@ -10,6 +11,7 @@
 #![allow(non_snake_case)]
 
 pub mod agreement;
+pub mod course;
 pub mod evidence;
 pub mod instant;
 pub mod reference;

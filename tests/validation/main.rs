@@ -8,6 +8,7 @@ mod gsxr1000;
 mod gsxr1000_cornering;
 mod gsxr1000_linkage;
 mod mechanisms;
+mod motions;
 mod moto11;
 mod ref11;
 mod rolling_disc;
@@ -21,7 +22,7 @@ fn the_table_of_evidence_is_up_to_date() {
     let rows: Vec<_> = vehicles
         .iter()
         .chain(bicycle::EVIDENCE)
-        .chain([&mechanisms::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE])
+        .chain([&mechanisms::EVIDENCE, &motions::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE])
         .copied()
         .collect();
     evidence::hold("validation", &rows);

@@ -2,13 +2,19 @@
 //!
 //! The functions below say how the quantities of the sources are those of our models; the axes and angles are derived in the `SOURCE.md` beside each model.
 
+use analyses::linearize::Options;
+use analyses::{eigen, linearize};
+use fastbike::plan::Request;
 use mbody::assembly::BaseDescription;
+use mbody::dynamics::{Formulation, TreePlant};
 use mbody::spatial::Vec3;
+use problem::{At, Dae};
 use validation::agreement::{Agreement, absolute, relative};
 use validation::evidence::Row;
 use validation::instant::Instant;
 use validation::reference::Table;
 use validation::tree::{Named, Tree};
+use validation::vehicle::Vehicle;
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -41,6 +47,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "`four_bar_diagonal_spring`: static angle",
         "B. P. Minaker, IFToMM solution 120; closed form",
         "1e-13 rad/s²: double precision"
+    ),
+    the_four_bar_is_trimmed_and_swings_as_published => (
+        "`four_bar_diagonal_spring`: static angle found by the trim, eigenvalues of small motions about it",
+        "closed form; B. P. Minaker, IFToMM solution 120",
+        "1e-12 rad, 1/s: double precision (printed: ten digits)"
     ),
 ];
 
@@ -256,6 +267,32 @@ fn the_spring_holds_the_four_bar_at_the_published_angle() {
     let double = absolute(1e-13).because("double precision of accelerations whose parts are up to 10 rad/s²");
     for name in ["left_crank.rate", "coupler.rate", "right_crank.rate"] {
         agreement.near(name, model.rate(name), 0.0, &double);
+    }
+    agreement.assert();
+}
+
+#[test]
+fn the_four_bar_is_trimmed_and_swings_as_published() {
+    let table = Table::read("mbs/four_bar_diagonal_spring.csv");
+    let expected = |quantity: &str, column: &str| table.number(table.find(&[("quantity", quantity)]), column);
+    let state = Vehicle::bundled("four_bar_diagonal_spring").state(&Request::default());
+    let mut plant = TreePlant::in_formulation(state.system.clone(), Formulation::Ggl);
+    let value = |name: &str| if name.ends_with("_correction") { 0.0 } else { state.get(name) };
+    let y: Vec<f64> = plant.unknowns().iter().map(|k| value(&k.signal.name)).collect();
+    let at = At { time: 0.0, y: &y, yd: &vec![0.0; y.len()], u: &[] };
+    let model = linearize(&mut plant, at, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    let spectrum = eigen(&model).unwrap_or_else(|error| panic!("{error}"));
+    let mut agreement = Agreement::on("four_bar_diagonal_spring: trim and eigenvalues");
+    let double = absolute(1e-12).because("double precision");
+    let printed = absolute(5e-10).because("about ten correct digits of the printed ones");
+    agreement.holds("one degree of freedom", spectrum.values.len() == 2);
+    for (quantity, found) in [
+        ("static_angle", state.get("left_crank.angle")),
+        ("eigenvalue_real", spectrum.values[0].re),
+        ("eigenvalue_imaginary", spectrum.values[0].im),
+    ] {
+        agreement.near(quantity, found, expected(quantity, "closed_form"), &double);
+        agreement.near(&format!("{quantity}, printed"), found, expected(quantity, "printed"), &printed);
     }
     agreement.assert();
 }

@@ -2,9 +2,11 @@
 
 #![allow(non_snake_case)]
 
+mod bundled;
 mod every_constraint;
 mod every_element;
 mod every_joint;
+mod invariance;
 mod linear;
 mod mechanisms;
 mod motion;
@@ -24,6 +26,8 @@ fn the_table_of_evidence_is_up_to_date() {
             mechanisms::EVIDENCE,
             trim::EVIDENCE,
             linear::EVIDENCE,
+            bundled::EVIDENCE,
+            invariance::EVIDENCE,
         ],
     );
 }

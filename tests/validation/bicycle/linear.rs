@@ -5,7 +5,7 @@ use analyses::linearize::{LinearModel, Options, linearize};
 use mbody::dynamics::{Formulation, TreePlant};
 use nalgebra::{DMatrix, Matrix4};
 use problem::{At, Dae};
-use validation::agreement::{Agreement, absolute};
+use validation::agreement::{Agreement, absolute, relative};
 use validation::evidence::Row;
 use validation::instant::Instant;
 use validation::reference::Table;
@@ -22,6 +22,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "`whipple`: castering, capsize and weave eigenvalues, 0 to 10 m/s",
         "Meijaard et al. (2007), table 2",
         "5e-12 1/s: double precision on matrices with entries up to 1e3 (the source prints fourteen decimals)"
+    ),
+    speeds_of_the_benchmark_are_met => (
+        "`whipple`: speeds at which two real eigenvalues meet, weave becomes stable, capsize unstable, by roots of eigenvalues; weave frequency there",
+        "Meijaard et al. (2007), section 4 (d)",
+        "relative 1e-12: double precision of eigenvalues over their slope (the source prints fifteen digits)"
     ),
 ];
 
@@ -81,4 +86,53 @@ fn printed_eigenvalues_are_met() {
         }
     }
     agreement.assert();
+}
+
+/// The root of a smooth function by secants.
+fn root(value: impl Fn(f64) -> f64, mut x: [f64; 2]) -> f64 {
+    let mut f = x.map(&value);
+    for _ in 0..30 {
+        if f[1] == 0.0 || f[0] == f[1] || (x[1] - x[0]).abs() < 1e-15 {
+            break;
+        }
+        let next = x[1] - f[1] * (x[1] - x[0]) / (f[1] - f[0]);
+        (x, f) = ([x[1], next], [f[1], value(next)]);
+    }
+    x[1]
+}
+
+/// The two eigenvalues with the largest real parts.
+fn weave(speed: f64) -> [(f64, f64); 2] {
+    let spectrum = analyses::eigen::eigen(&straight(speed)).unwrap_or_else(|error| panic!("{error}"));
+    let mut values: Vec<_> = spectrum.values.iter().map(|z| (z.re, z.im)).filter(|z| z.0.hypot(z.1) > 0.1).collect();
+    values.sort_by(|a, b| b.0.total_cmp(&a.0));
+    [values[0], values[1]]
+}
+
+#[test]
+fn speeds_of_the_benchmark_are_met() {
+    let table = Table::read("bicycle/speeds.csv");
+    let printed = |what: &str| table.number(table.find(&[("what", what)]), "printed");
+    // (λ₁ − λ₂)² passes zero straight, real before and imaginary behind
+    let apart = |speed: f64| {
+        let [a, b] = weave(speed);
+        (a.0 - b.0).powi(2) - (a.1 - b.1).powi(2)
+    };
+    let double_root = root(apart, [0.68, 0.69]);
+    let weave_speed = root(|speed| weave_pair(speed).0, [4.25, 4.35]);
+    // product of the eigenvalues
+    let capsize = root(|speed| in_signs_of_the_paper(&straight(speed)).0.determinant(), [6.0, 6.05]);
+    let mut agreement = Agreement::on("whipple: speeds of the benchmark");
+    let double = relative(1e-12).because("double precision of eigenvalues over their slope");
+    agreement.near("double root", double_root, printed("double_root"), &double);
+    agreement.near("weave", weave_speed, printed("weave"), &double);
+    agreement.near("capsize", capsize, printed("capsize"), &double);
+    agreement.near("weave frequency", weave_pair(weave_speed).1, printed("weave_frequency"), &double);
+    agreement.assert();
+}
+
+/// The oscillating eigenvalue.
+fn weave_pair(speed: f64) -> (f64, f64) {
+    let spectrum = analyses::eigen::eigen(&straight(speed)).unwrap_or_else(|error| panic!("{error}"));
+    spectrum.values.iter().map(|z| (z.re, z.im)).find(|z| z.1 > 1e-3).expect("an oscillation")
 }

@@ -1,11 +1,13 @@
 //! The benchmark bicycle `whipple`: linear equations, eigenvalues, one published nonlinear state, one published motion.
 
+mod circles;
 mod dynamics;
 mod linear;
+mod motion;
 mod signs;
 mod source;
 
 use validation::evidence::Row;
 
 /// Rows of the table.
-pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE];
+pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE, motion::EVIDENCE, circles::EVIDENCE];

@@ -1,0 +1,170 @@
+//! Motions over time, by the names of signals: start, integration by either method, energies and drift along the way.
+
+use crate::agreement::{Agreement, absolute};
+use crate::tree::Named;
+use analyses::Variables;
+use analyses::transient::{Constant, Method, Simulation, Start, Transient, Worst};
+use fastbike::library::Source;
+use fastbike::standard_kinds;
+use mbody::assembly::{BaseDescription, assemble, assemble_urdf};
+use mbody::description::Library;
+use mbody::dynamics::{Account, Formulation, System, TreePlant};
+use mbody::spatial::Vec3;
+use problem::{AlgebraicErrors, At, Dae, IntegrationOptions};
+use std::sync::Arc;
+use sundials::{ExplicitRungeKutta, Ida};
+
+/// A method with its tolerances.
+#[derive(Clone, Copy, Debug)]
+pub enum By {
+    /// Explicit Runge–Kutta with projection; share of each unknown, and of its absolute tolerance.
+    Erk(f64, f64),
+    /// Implicit multistep on the stabilized form of index 2; tolerances as before.
+    Ida(f64, f64),
+}
+
+impl By {
+    fn options(self) -> IntegrationOptions {
+        let (Self::Erk(relative_tolerance, absolute_tolerance_factor) | Self::Ida(relative_tolerance, absolute_tolerance_factor)) = self;
+        let algebraic = AlgebraicErrors::Suppressed;
+        // IDA's own first step is that of a change by the tolerance: too short to tell forces of constraints from rounding
+        let first_step = matches!(self, Self::Ida(..)).then_some(1e-6);
+        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, first_step, max_steps: 50_000, algebraic, ..Default::default() }
+    }
+}
+
+/// A motion that was computed.
+pub struct Course {
+    plant: TreePlant,
+    /// What the integration left.
+    pub simulation: Simulation,
+    u: Vec<f64>,
+}
+
+/// A bundled model; the tree of a plain URDF flies freely.
+///
+/// # Panics
+/// It does not assemble.
+pub fn system(model: &str) -> Arc<System> {
+    let source = Source::find(model).unwrap_or_else(|findings| panic!("{findings}"));
+    let (assembled, findings) = match source.is_urdf() {
+        true => assemble_urdf(&source.file, &source.text(&source.file).unwrap_or_default(), BaseDescription::Free, 9.81, &[]),
+        false => assemble(&source.file, &source, &standard_kinds(), &[]),
+    };
+    assembled.unwrap_or_else(|| panic!("{model}: {findings}")).system
+}
+
+impl Course {
+    /// A bundled model from its stated start, where `given` values of unknowns and inputs replace the stated ones.
+    ///
+    /// # Panics
+    /// It does not assemble, or cannot start.
+    pub fn of(model: &str, given: &[Named], times: &[f64], by: By) -> Self {
+        Self::along(system(model), given, times, by)
+    }
+
+    /// The same of a system.
+    ///
+    /// # Panics
+    /// It cannot start.
+    pub fn along(system: Arc<System>, given: &[Named], times: &[f64], by: By) -> Self {
+        let mut plant = TreePlant::in_formulation(system, Formulation::Ggl);
+        let mut u: Vec<f64> = plant.inputs().iter().map(|i| i.default).collect();
+        let mut held = Vec::new();
+        for (name, value) in given {
+            match plant.inputs().iter().position(|i| i.signal.name == *name) {
+                Some(i) => u[i] = *value,
+                None => held.push((unknown(&plant, name), *value)),
+            }
+        }
+        let mut transient = Transient::new(&plant, times.to_vec());
+        let mut start = Start::stated(&plant);
+        start.hold(&plant, &held);
+        (transient.start, transient.options) = (start, by.options());
+        let (mut erk, mut ida) = (ExplicitRungeKutta::default(), Ida::default());
+        let method = match by {
+            By::Erk(..) => Method::Ode(&mut erk),
+            By::Ida(..) => Method::Dae(&mut ida),
+        };
+        let simulation = transient.run(&mut plant, &Constant(u.clone()), method).unwrap_or_else(|error| panic!("{error}"));
+        Self { plant, simulation, u }
+    }
+
+    /// The plant, in the stabilized form.
+    pub fn plant(&mut self) -> &mut TreePlant {
+        &mut self.plant
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.simulation.trajectory.len()
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.simulation.trajectory.is_empty()
+    }
+
+    /// A signal over the samples.
+    ///
+    /// # Panics
+    /// There is no such signal.
+    pub fn signal(&self, name: &str) -> &[f64] {
+        self.simulation.trajectory.column(name).unwrap_or_else(|| {
+            panic!("no signal `{name}` among {:?}", self.simulation.trajectory.signals.iter().map(|s| &s.name).collect::<Vec<_>>())
+        })
+    }
+
+    /// All unknowns at a sample.
+    pub fn unknowns(&self, sample: usize) -> Vec<f64> {
+        (0..self.plant.unknowns().len()).map(|i| self.simulation.trajectory.columns[i][sample]).collect()
+    }
+
+    fn at<T>(&mut self, sample: usize, look: impl FnOnce(&mut TreePlant, At<'_>) -> T) -> T {
+        let (y, time) = (self.unknowns(sample), self.simulation.trajectory.time[sample]);
+        let yd = vec![0.0; y.len()];
+        look(&mut self.plant, At { time, y: &y, yd: &yd, u: &self.u })
+    }
+
+    /// Energy account at a sample.
+    pub fn account(&mut self, sample: usize) -> Account<f64> {
+        self.at(sample, |plant, at| plant.account_at(at))
+    }
+
+    /// Kinetic energy, potential energy of gravity and what elements store, J, over the samples.
+    pub fn energies(&mut self) -> Vec<f64> {
+        let total = |a: Account<f64>| a.kinetic + a.gravity + a.elements.stored;
+        (0..self.len()).map(|sample| total(self.account(sample))).collect()
+    }
+
+    /// Position of a point of a link in the world at a sample, m.
+    ///
+    /// # Panics
+    /// There is no such link.
+    pub fn position(&mut self, sample: usize, link: &str, point: [f64; 3]) -> Vec3<f64> {
+        self.at(sample, |plant, at| {
+            let frame = plant.system().model().frame(link).unwrap_or_else(|| panic!("no link `{link}`")).clone();
+            plant.evaluate_at(at).tree.world.X_WB[frame.body.get()].point(frame.X_BF.point(point.into()))
+        })
+    }
+
+    /// The whole time was reached, and the constraints held on the way to 1e-9 m, rad, and per second.
+    pub fn holds(&self, agreement: &mut Agreement, what: &str) {
+        let ending = &self.simulation.ending;
+        agreement.holds(&format!("{what} reaches its end: {ending:?}"), ending.reached());
+        let stabilized = absolute(1e-9).because("projection, or stabilization at the tolerance of the method");
+        for (level, worst) in [("coordinates", &self.simulation.drift.position), ("velocities", &self.simulation.drift.velocity)] {
+            if let Some(Worst { off, time }) = worst {
+                agreement.near(&format!("{what}: drift of {level}, {off}, at {time} s"), off.by, 0.0, &stabilized);
+            }
+        }
+    }
+}
+
+fn unknown(plant: &TreePlant, name: &str) -> usize {
+    let all = Variables::of(plant);
+    match all.find(name) {
+        Some(analyses::Variable::Unknown(i)) => i,
+        _ => panic!("no unknown `{name}`"),
+    }
+}

@@ -1,0 +1,198 @@
+//! Every bundled model as a whole, in general motion: power, forces of constraints, derivatives in every formulation of the constraints.
+
+use crate::motion::Numbers;
+use fastbike::library::bundled_models;
+use mbody::dynamics::{Formulation, TreePlant};
+use problem::{At, Dae, Differentiable, EquationKind, Explicit, Matrix, Outputs, Projection, Seeds, UnknownKind};
+use validation::agreement::{Agreement, absolute};
+use validation::course::system;
+use validation::evidence::Row;
+
+/// Rows of the table.
+pub const EVIDENCE: &[Row] = validation::evidence![
+    power_is_balanced_in_every_bundled_model => (
+        "every bundled model, in general motion on its constraints: d/dt (kinetic + gravity + stored) = supplied − dissipated",
+        "balance of power, stabilized form and accelerations",
+        "1e-13 of the largest term: double precision"
+    ),
+    constraints_do_no_work => (
+        "the forces of all constraints of every bundled model together do no work",
+        "principle of d'Alembert",
+        "1e-12 of the sum of the powers of each: double precision"
+    ),
+    derivatives_are_exact_in_every_formulation => (
+        "∂F/∂y and ∂F/∂ẏ of every bundled model with constraints, in four formulations",
+        "central differences, extrapolated (Richardson)",
+        "1e-8 of the largest entry of the row in nominal units: rounding over the step"
+    ),
+];
+
+/// States of each model.
+const STATES: usize = 5;
+
+/// A point of a plant with all its rates.
+struct Point {
+    plant: TreePlant,
+    y: Vec<f64>,
+    yd: Vec<f64>,
+    u: Vec<f64>,
+}
+
+impl Point {
+    /// A state in general position, on the constraints, with multipliers and rates that satisfy the equations.
+    fn general(model: &str, formulation: Formulation, numbers: &mut Numbers) -> Self {
+        let mut plant = TreePlant::in_formulation(system(model), formulation);
+        let speed = 22.0 + 8.0 * numbers.next();
+        let mut y = Vec::new();
+        for unknown in plant.unknowns() {
+            let (owner, quantity) = unknown.signal.name.split_once('.').expect("owner and quantity");
+            let start = unknown.start.unwrap_or(unknown.design);
+            let spread = numbers.next();
+            y.push(match (quantity, unknown.kind) {
+                ("forward_speed", _) => speed,
+                ("rate" | "spin_rate", _) if owner.ends_with("wheel") => speed / 0.31 * (1.0 + 0.01 * spread),
+                // pressed onto the road
+                ("heave", _) => start - 0.01,
+                ("roll", _) => start + 0.2 * spread,
+                // a quaternion has unit length
+                (_, UnknownKind::Position) if quantity.contains("quaternion") => start,
+                (_, UnknownKind::Position) => start + 0.05 * spread * unknown.nominal.min(1.0),
+                (_, UnknownKind::Velocity) => start + 0.3 * spread * unknown.nominal.min(1.0),
+                (_, UnknownKind::State) => start + 0.3 * spread * unknown.nominal,
+                (_, UnknownKind::Algebraic) => 0.0,
+            });
+        }
+        let driven: Vec<bool> = (0..plant.inputs().len())
+            .map(|i| plant.inputs()[i].rate.is_none() && !plant.inputs().iter().any(|other| other.rate == Some(i)))
+            .collect();
+        // torques of brakes are not negative; roads lie still
+        let u: Vec<f64> =
+            plant.inputs().iter().zip(driven).map(|(i, d)| if d { i.nominal * (0.5 + 0.3 * numbers.next()) } else { i.default }).collect();
+        let mut yd = vec![0.0; y.len()];
+        plant.project(0.0, &mut y, &u, &[]).unwrap_or_else(|error| panic!("{model}: {error:?}"));
+        plant.solve_rates(0.0, &mut y, &u, &mut yd).unwrap_or_else(|error| panic!("{model}: {error:?}"));
+        Self { plant, y, yd, u }
+    }
+
+    fn residual(&mut self) -> Vec<f64> {
+        let mut r = vec![0.0; self.plant.equations().len()];
+        let Self { plant, y, yd, u } = self;
+        plant.residual(At { time: 0.0, y, yd, u }, &mut r).expect("finite");
+        r
+    }
+}
+
+/// Calls `look` with states of every bundled model.
+fn everywhere(formulation: Formulation, mut look: impl FnMut(&str, Point)) {
+    let mut numbers = Numbers(7);
+    for model in bundled_models() {
+        for k in 0..STATES {
+            look(&format!("{model}, {}, state {k}", formulation.name()), Point::general(model, formulation, &mut numbers));
+        }
+    }
+}
+
+#[test]
+fn power_is_balanced_in_every_bundled_model() {
+    let mut agreement = Agreement::on("bundled models: balance of power");
+    for formulation in [Formulation::Ggl, Formulation::Acceleration { decay: 0.0 }] {
+        everywhere(formulation, |what, mut point| {
+            let Point { plant, y, yd, u } = &mut point;
+            let (rate, account) = plant.energy_rate_at(At { time: 0.0, y, yd, u });
+            let (supplied, dissipated) = (account.elements.supplied, account.elements.dissipated);
+            // powers of all equations of motion, each of which is zero only as a sum
+            let kinds = plant.unknowns().iter().zip(yd.iter()).filter(|(k, _)| k.kind == UnknownKind::Velocity);
+            let inertial: f64 = kinds.map(|(k, rate)| (rate * k.nominal).abs()).sum();
+            let size = rate.abs() + supplied.abs() + dissipated.abs() + account.kinetic + inertial;
+            let double = absolute(1e-13 * size).because("double precision of the largest term");
+            agreement.near(what, rate, supplied - dissipated, &double);
+        });
+    }
+    agreement.assert();
+}
+
+#[test]
+fn constraints_do_no_work() {
+    let mut agreement = Agreement::on("bundled models: power of constraints");
+    everywhere(Formulation::Ggl, |what, mut point| {
+        let rows: Vec<usize> =
+            (0..point.plant.equations().len()).filter(|&i| point.plant.equations()[i].kind == EquationKind::Dynamic).collect();
+        let of_kind =
+            |kind: UnknownKind| -> Vec<usize> { (0..point.y.len()).filter(|&i| point.plant.unknowns()[i].kind == kind).collect() };
+        let velocities = of_kind(UnknownKind::Velocity);
+        let multipliers = of_kind(UnknownKind::Algebraic);
+        if point.plant.system().constraints().is_empty() {
+            return;
+        }
+        let with = point.residual();
+        let kept = point.y.clone();
+        let constraint: Vec<usize> = multipliers.into_iter().filter(|&i| !point.plant.unknowns()[i].differential).collect();
+        constraint.iter().for_each(|&i| point.y[i] = 0.0);
+        let without = point.residual();
+        point.y = kept;
+        let powers: Vec<f64> = rows.iter().zip(&velocities).map(|(&row, &v)| (with[row] - without[row]) * point.y[v]).collect();
+        let size: f64 = powers.iter().map(|p| p.abs()).sum();
+        let double = absolute(1e-12 * size + 1e-12).because("double precision of the powers of each velocity");
+        agreement.near(what, powers.iter().sum(), 0.0, &double);
+    });
+    agreement.assert();
+}
+
+#[test]
+fn derivatives_are_exact_in_every_formulation() {
+    let mut agreement = Agreement::on("bundled models: Jacobians in four formulations");
+    let rule = absolute(1e-8).because("rounding over a step of 1e-3, in units of the largest entry of the row");
+    for formulation in [Formulation::Position, Formulation::Velocity, Formulation::Ggl, Formulation::Acceleration { decay: 5.0 }] {
+        let mut numbers = Numbers(11);
+        for model in bundled_models() {
+            if system(model).constraints().is_empty() {
+                continue;
+            }
+            let mut point = Point::general(model, formulation, &mut numbers);
+            // off the constraints, with corrections: nothing may vanish by chance
+            for (y, unknown) in point.y.iter_mut().zip(point.plant.unknowns()) {
+                *y += 1e-2 * unknown.nominal.min(1.0) * numbers.next();
+            }
+            let (ny, nu) = (point.y.len(), point.u.len());
+            let nominal: Vec<f64> = point.plant.unknowns().iter().map(|k| k.nominal).collect();
+            let mut seeds = Seeds::zeros(ny, nu, 2 * ny);
+            for i in 0..ny {
+                seeds.y[(i, i)] = nominal[i];
+                seeds.yd[(i, ny + i)] = nominal[i];
+            }
+            let (nr, nz) = (point.plant.equations().len(), point.plant.outputs().len());
+            let (mut r, mut z) = (vec![0.0; nr], vec![0.0; nz]);
+            let (mut dr, mut dz) = (Matrix::zeros(nr, 2 * ny), Matrix::zeros(nz, 2 * ny));
+            let Point { plant, y, yd, u } = &mut point;
+            plant.along(At { time: 0.0, y, yd, u }, &seeds, (&mut r, &mut z), &mut dr, &mut dz).expect("finite");
+            let largest: Vec<f64> = (0..nr).map(|i| (0..2 * ny).map(|k| dr[(i, k)].abs()).fold(r[i].abs().max(1e-12), f64::max)).collect();
+            for k in 0..2 * ny {
+                let mut moved = |by: f64| {
+                    let x = if k < ny { &mut point.y[k] } else { &mut point.yd[k - ny] };
+                    let kept = *x;
+                    *x = kept + by * nominal[k % ny];
+                    let residual = point.residual();
+                    *(if k < ny { &mut point.y[k] } else { &mut point.yd[k - ny] }) = kept;
+                    residual
+                };
+                let h = 1e-3;
+                let [a, b, c, d] = [h, -h, 0.5 * h, -0.5 * h].map(&mut moved);
+                for i in 0..nr {
+                    let (coarse, fine) = ((a[i] - b[i]) / (2.0 * h), (c[i] - d[i]) / h);
+                    let found = fine + (fine - coarse) / 3.0;
+                    let name = || {
+                        format!(
+                            "{model}, {}: {} by {}{}",
+                            formulation.name(),
+                            point.plant.equations()[i].name,
+                            if k < ny { "" } else { "rate of " },
+                            point.plant.unknowns()[k % ny].signal.name
+                        )
+                    };
+                    agreement.near(&name(), found / largest[i], dr[(i, k)] / largest[i], &rule);
+                }
+            }
+        }
+    }
+    agreement.assert();
+}
