@@ -135,7 +135,8 @@ fn correction(m: &Multiplier) -> Unknown {
         cyclic: false,
         differential: false,
         nominal: 1e-3,
-        absolute_tolerance: 1e-6,
+        // rounding of coordinates over the shortest steps is all that can be known of it
+        absolute_tolerance: 1e-3,
         design: 0.0,
         start: None,
     }

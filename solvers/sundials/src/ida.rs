@@ -9,8 +9,6 @@
 //! problem of index 2 whose multipliers are in newtons next to lengths in meters should scale its rows and unknowns itself.
 //! Suppressed unknowns are left out of the error test only; the iteration converges in all of them. Generous tolerances for
 //! multipliers save nothing: it then stops early, and what it leaves costs steps (on the pendulum of the tests, twice as many).
-//! But rounding of the unknowns, divided by the step, is the least that can be known of a multiplier of index 2; a small factor on
-//! absolute tolerances would ask for more and stop at the first step. So the factor does not tighten those of suppressed unknowns.
 //!
 //! Source: A. C. Hindmarsh, R. Serban, C. J. Balos, D. J. Gardner, D. R. Reynolds, C. S. Woodward, *User Documentation for IDA*,
 //! LLNL, section “Mathematical considerations”; K. E. Brenan, S. L. Campbell, L. R. Petzold, *Numerical Solution of Initial-Value
@@ -95,12 +93,6 @@ impl Work {
         y.copy_from_slice(start.0);
         yd.copy_from_slice(start.1);
         load(self.memory.tolerance_mut(), problem.absolute_tolerance(), |tolerance| tolerance * options.absolute_tolerance_factor);
-        if options.algebraic == AlgebraicErrors::Suppressed {
-            let declared = problem.absolute_tolerance().iter().zip(problem.differential());
-            for (tolerance, (declared, _)) in self.memory.tolerance_mut().iter_mut().zip(declared).filter(|(_, (_, d))| !**d) {
-                *tolerance = tolerance.max(*declared);
-            }
-        }
         load(self.memory.differential_mut(), problem.differential(), |differential| if differential { 1.0 } else { 0.0 });
         self.memory.start(&Request {
             time: times[0],
