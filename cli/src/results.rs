@@ -9,13 +9,13 @@ use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure};
 use mbody::description::Library;
 use mbody::dynamics::{System, TreePlant};
-use problem::Ending;
 use serde_json::json;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+/// Writes a file, or says which one could not be written.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     fs::write(path, bytes).map_err(|e| Failure::Write { path: path.display().to_string(), cause: e.to_string() })
 }
 
@@ -55,7 +55,7 @@ pub fn deliver(
     context.console.warn(&report.warnings);
     let figure = output.plot.is_some().then(|| figure(&report)).transpose()?;
     keep(context, (model, output), &report, figure.as_ref())?;
-    match report.points.iter().any(|p| p.ending == Ending::Reached) {
+    match report.achieved() {
         true => Ok(Exit::Done),
         false => Ok(Exit::Unreached),
     }

@@ -3,7 +3,9 @@
 mod check;
 mod dynamics;
 mod info;
+mod linearize;
 mod map;
+mod modes;
 mod schema;
 mod trim;
 
@@ -21,7 +23,7 @@ pub struct Kind {
 }
 
 /// All commands, in the order of the help.
-pub const KINDS: &[Kind] = &[trim::KIND, map::KIND, info::KIND, check::KIND, dynamics::KIND, schema::KIND];
+pub const KINDS: &[Kind] = &[trim::KIND, map::KIND, modes::KIND, linearize::KIND, info::KIND, check::KIND, dynamics::KIND, schema::KIND];
 
 /// Version, profile, processor level and SUNDIALS version.
 fn version() -> String {

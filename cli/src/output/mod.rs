@@ -9,6 +9,10 @@
 mod axes;
 mod csv;
 mod json;
+pub mod linear;
+mod mat;
+pub mod modes;
+mod npz;
 mod number;
 mod palette;
 mod progress;
@@ -22,7 +26,7 @@ mod versus;
 pub use axes::Axes;
 pub use palette::Palette;
 pub use progress::Progress;
-pub use report::{Given, Point, Report, Variant};
+pub use report::{Beside, Given, Point, Report, Variant};
 pub use units::{Angles, Shown};
 
 use std::io;

@@ -1,6 +1,7 @@
 //! The result of an analysis at one or several points, before it becomes text.
 
 use super::axes::Axes;
+use super::{linear, modes};
 use problem::{Ending, Signal};
 use std::borrow::Cow;
 
@@ -53,6 +54,18 @@ pub struct Variant {
     pub points: Vec<Point>,
 }
 
+/// What an analysis found at the points beside their signals.
+#[derive(Clone, Debug, Default)]
+pub enum Beside {
+    /// Nothing: steady states are all there is.
+    #[default]
+    Nothing,
+    /// A linear model at every point.
+    Linear(linear::Linear),
+    /// The modes at every point.
+    Modes(modes::ModesAlong),
+}
+
 /// Everything that a command such as `trim` or `map` found out. Values are SI.
 #[derive(Clone, Debug)]
 pub struct Report {
@@ -72,6 +85,8 @@ pub struct Report {
     pub points: Vec<Point>,
     /// The same analysis for variants.
     pub variants: Vec<Variant>,
+    /// What the analysis found beside the signals.
+    pub beside: Beside,
     /// What the reader should know beside the results. The table leaves them to standard error.
     pub warnings: Vec<String>,
 }
@@ -88,6 +103,7 @@ impl Report {
             shown: Vec::new(),
             points: Vec::new(),
             variants: Vec::new(),
+            beside: Beside::Nothing,
             warnings: Vec::new(),
         }
     }
@@ -111,8 +127,23 @@ impl Report {
                 (*value, *threshold) = (turned(*value, signal), turned(*threshold, signal));
             }
         }
+        match &mut self.beside {
+            Beside::Nothing => {}
+            Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
+            Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
+        }
         self.axes = axes;
         self
+    }
+
+    /// Whether the analysis has a result at one point at least.
+    pub fn achieved(&self) -> bool {
+        let found = |k: usize| match &self.beside {
+            Beside::Nothing => true,
+            Beside::Linear(linear) => linear.points.get(k).is_some_and(Result::is_ok),
+            Beside::Modes(modes) => modes.points.get(k).is_some_and(Result::is_ok),
+        };
+        self.points.iter().enumerate().any(|(k, p)| p.ending == Ending::Reached && found(k))
     }
 }
 
