@@ -223,7 +223,7 @@ fn named_modes(modes: &Modes, names: &[Name], shape_signals: &[Signal]) -> Point
 
 /// Paths of all eigenvalues along a swept quantity, cut where the name changes.
 fn branches(steady: &Steady, along: usize, points: &[Option<&Modes>], edges: &[&Edge], named: &[Vec<Name>]) -> Vec<Branch> {
-    let name = |point: usize, slot: usize| {
+    let name_at = |point: usize, slot: usize| {
         let modes = points[point]?;
         let at = modes.list.iter().position(|m| m.slot == slot || (m.oscillates() && m.slot + 1 == slot))?;
         Some(named[point][at].name.clone())
@@ -237,11 +237,12 @@ fn branches(steady: &Steady, along: usize, points: &[Option<&Modes>], edges: &[&
                 let slot = path.last().map_or(0, |&(_, slot)| edge.link.to[slot]);
                 path.push((edge.to, slot));
             }
-            cut(&path, &name, &value, &mut |name, pieces, begins| {
+            cut(&path, &name_at, &value, &mut |name, pieces, begins| {
                 let swept = pieces.iter().map(|&(point, _)| steady.points[point].given[along]).collect();
                 let upper = |z: nalgebra::Complex<f64>| nalgebra::Complex::new(z.re, z.im.abs());
                 let values = pieces.iter().filter_map(|&(point, slot)| value(point, slot).map(upper)).collect();
-                branches.push(Branch { name, swept, values, begins });
+                let continues = pieces.first().is_some_and(|&(point, slot)| name_at(point, slot).as_ref() == Some(&name));
+                branches.push(Branch { name, swept, values, begins, continues });
             });
         }
     }

@@ -116,6 +116,11 @@ fn locus(report: &Report, modes: &ModesAlong) -> Figure {
     Figure::RootLocus(RootLocus { title: title(report, modes), branches, first: first.unwrap_or_default() })
 }
 
+/// Whether a piece of a path oscillates beyond the point that it shares with the piece before.
+fn oscillates(branch: &Branch) -> bool {
+    branch.values.iter().skip(usize::from(!branch.begins && !branch.continues)).any(|z| z.im > 0.0)
+}
+
 /// Frequency and damping ratio of everything that oscillates.
 fn frequencies(report: &Report, modes: &ModesAlong) -> Result<Figure, Failure> {
     let Some(given) = modes.along.map(|k| &report.given[k]) else {
@@ -124,9 +129,11 @@ fn frequencies(report: &Report, modes: &ModesAlong) -> Result<Figure, Failure> {
     let across = Angles::Degrees.show(&given.unit);
     let curves = |of: &dyn Fn(f64, f64) -> f64| {
         let mut curves: Vec<Curve> = Vec::new();
-        for branch in modes.branches.iter().filter(|b| b.values.iter().any(|z| z.im > 0.0)) {
+        for branch in modes.branches.iter().filter(|b| oscillates(b)) {
             let value = |z: &nalgebra::Complex<f64>| if z.im > 0.0 { of(z.re, z.im) } else { f64::NAN };
-            let points = branch.swept.iter().zip(&branch.values).map(|(v, z)| (v * across.factor, value(z)));
+            // the first point of a later piece is the last one of the piece before
+            let shared = usize::from(!branch.begins && !branch.continues);
+            let points = branch.swept.iter().zip(&branch.values).skip(shared).map(|(v, z)| (v * across.factor, value(z)));
             match curves.iter_mut().find(|c| c.name == branch.name) {
                 Some(curve) => {
                     curve.points.push((f64::NAN, f64::NAN));

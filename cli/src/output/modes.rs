@@ -66,6 +66,8 @@ pub struct Branch {
     pub values: Vec<Complex<f64>>,
     /// Whether the sweep begins with the first value.
     pub begins: bool,
+    /// Whether the first value has the name too; otherwise it belongs to the piece before.
+    pub continues: bool,
 }
 
 /// Where a mode becomes stable or unstable.

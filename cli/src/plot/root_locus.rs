@@ -87,10 +87,12 @@ impl RootLocus {
         ((left, right), (-0.015 * height, height))
     }
 
-    /// Names in the order of their first appearance.
+    /// Names of oscillations, then the others, each once.
     fn names(&self) -> Vec<&str> {
+        let oscillates = |b: &&Locus| b.points.iter().filter(|p| p.1 > 0.0).count() * 2 > b.points.len();
+        let (oscillations, others): (Vec<&Locus>, Vec<&Locus>) = self.branches.iter().partition(oscillates);
         let mut names: Vec<&str> = Vec::new();
-        for branch in &self.branches {
+        for branch in oscillations.into_iter().chain(others) {
             if !names.contains(&branch.name.as_str()) {
                 names.push(&branch.name);
             }
@@ -170,7 +172,7 @@ impl RootLocus {
 }
 
 fn pen(index: usize) -> Pen {
-    Pen { color: style::curve_color(index), width: style::CURVE_WIDTH, dash: "" }
+    Pen { color: style::curve_color(index), width: style::CURVE_WIDTH, dash: style::round_dash(index) }
 }
 
 const DAMPING_PEN: Pen = Pen { color: style::HATCH, width: 0.8, dash: "4 3" };

@@ -76,7 +76,7 @@ pub const MODE_RULES: &[ModeRule] = &[
     oscillation("front hop", "the front wheel hops on its tire", &[("fork.travel", 1.0), ("*.pitch", 0.3)], (7.0, 25.0), ANY),
     oscillation("rear hop", "the rear wheel hops on its tire", &[("swingarm.angle", 1.0), ("*.heave", 0.3)], (7.0, 25.0), ANY),
     real("capsize", "the vehicle falls over slowly, or comes up", &[("*.roll", 1.0), ("*.yaw_rate", 0.3)], (0.0, 0.7), Occurs::Once),
-    real("speed", "the speed settles between drive and drag", &[("*.forward_speed", 1.0)], (0.0, 0.2), Occurs::Once),
+    real("speed", "the speed settles between drive and drag", &[("*.forward_speed", 1.0), ("*.spin_rate", 0.9)], (0.0, 0.2), Occurs::Once),
     real(
         "caster",
         "the front assembly turns into its direction of travel",

@@ -68,35 +68,41 @@ fn leading(mode: &Mode, signals: &[String]) -> String {
 /// Names of all modes of one point, in their order, and the sum of all scores.
 pub fn classify(modes: &Modes, rules: &[ModeRule]) -> (Vec<Name>, f64) {
     let scores = scores(modes, rules);
-    let once: Vec<usize> = (0..rules.len()).filter(|&r| rules[r].occurs == Occurs::Once).collect();
-    let (count, names) = (modes.list.len(), once.len());
+    let assigned = assign(&scores, rules, &vec![None; modes.list.len()]);
+    let total = assigned.iter().enumerate().filter_map(|(m, rule)| rule.map(|r| scores[(m, r)])).sum();
+    let name = |(m, rule): (usize, &Option<usize>)| match rule {
+        Some(r) => Name { name: rules[*r].name.to_owned(), confidence: confidence(&scores, m, *r, rules) },
+        None => Name { name: leading(&modes.list[m], &modes.signals), confidence: 0.0 },
+    };
+    (assigned.iter().enumerate().map(name).collect(), total)
+}
+
+/// The rule of every mode that has no name yet, so that the sum of all scores is largest; none where nothing fits.
+pub(super) fn assign(scores: &DMatrix<f64>, rules: &[ModeRule], named: &[Option<&str>]) -> Vec<Option<usize>> {
+    let open: Vec<usize> = (0..named.len()).filter(|&m| named[m].is_none()).collect();
+    let free = |r: &usize| rules[*r].occurs == Occurs::Once && !named.contains(&Some(rules[*r].name));
+    let once: Vec<usize> = (0..rules.len()).filter(free).collect();
+    let (count, names) = (open.len(), once.len());
     let usable = |score: f64| if score < FAINT { 0.0 } else { score };
     let best_often = |m: usize| {
         let often = (0..rules.len()).filter(|&r| rules[r].occurs == Occurs::Often);
         often.map(|r| (r, usable(scores[(m, r)]))).filter(|(_, s)| *s > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     };
     // columns: names that occur once, then one of its own for every mode; rows beyond the modes take what is left
-    let cost = DMatrix::from_fn(count + names, count + names, |m, c| match (m < count, c < names) {
-        (true, true) => -usable(scores[(m, once[c])]),
-        (true, false) if c - names == m => -best_often(m).map_or(0.0, |(_, s)| s),
+    let cost = DMatrix::from_fn(count + names, count + names, |k, c| match (k < count, c < names) {
+        (true, true) => -usable(scores[(open[k], once[c])]),
+        (true, false) if c - names == k => -best_often(open[k]).map_or(0.0, |(_, s)| s),
         (true, false) => 1.0,
         (false, _) => 0.0,
     });
-    let assigned = cheapest(&cost);
-    let mut total = 0.0;
-    let named = (0..count).map(|m| {
-        let rule = match assigned[m] {
+    let mut assigned = vec![None; named.len()];
+    for (&column, &m) in cheapest(&cost).iter().zip(&open) {
+        assigned[m] = match column {
             c if c < names => Some(once[c]).filter(|&r| scores[(m, r)] >= FAINT),
             _ => best_often(m).map(|(r, _)| r),
         };
-        total += rule.map_or(0.0, |r| scores[(m, r)]);
-        match rule {
-            Some(r) => Name { name: rules[r].name.to_owned(), confidence: confidence(&scores, m, r, rules) },
-            None => Name { name: leading(&modes.list[m], &modes.signals), confidence: 0.0 },
-        }
-    });
-    let named = named.collect();
-    (named, total)
+    }
+    assigned
 }
 
 /// Squared score of a rule over that of the best one with another name and itself.

@@ -7,11 +7,15 @@
 //! Names are given at the point where the rules fit best and carried from there. Two paths of one pair with different names: the one that fits the
 //! pair better stays. A pair that falls apart leaves its name to both real eigenvalues.
 //!
+//! Real eigenvalues that pass each other on the axis exchange their vectors, by way of a short-lived pair or not at all visibly: what was the spin
+//! of a wheel is a suspension afterwards. A real mode, or one damped nearly as much, therefore keeps its name only while no other
+//! rule fits clearly better; oscillations keep theirs, whatever they turn into.
+//!
 //! Source: theory manual 8.4; R. J. Allemang, D. L. Brown, Proc. 1st Int. Modal Analysis Conf. 1982 (MAC).
 
 use super::Modes;
 use super::assignment::cheapest;
-use super::naming::{Name, classify, confidence, scores};
+use super::naming::{Name, assign, classify, confidence, scores};
 use nalgebra::{Complex, DMatrix, DVector};
 use problem::ModeRule;
 
@@ -20,6 +24,12 @@ const SLOW: f64 = 1.0;
 
 /// Resemblance below which a point between is asked for.
 const ALIKE: f64 = 0.8;
+
+/// Damping ratio above which an oscillation is hardly one.
+const OVERDAMPED: f64 = 0.9;
+
+/// How many times better another rule must fit a real mode.
+const CLEARLY: f64 = 1.6;
 
 /// How often a step may be halved.
 const DEPTH: usize = 6;
@@ -154,5 +164,18 @@ fn carried(from: &Modes, names: &[Name], link: &Link, to: &Modes, rules: &[ModeR
             false => Name { name: best.name.clone(), confidence: fit(m, best).map_or(0.0, |r| confidence(&scores, m, r, rules)) },
         }
     };
-    to.list.iter().enumerate().map(choose).collect()
+    let carried: Vec<Name> = to.list.iter().enumerate().map(choose).collect();
+    // a name without a rule for what the mode is now (a weave that fell apart) has nothing to be compared with
+    let keeps = |m: usize| (to.list[m].oscillates() && to.list[m].damping_ratio() < OVERDAMPED) || score(m, &carried[m]) == 0.0;
+    let named: Vec<Option<&str>> = (0..carried.len()).map(|m| keeps(m).then_some(carried[m].name.as_str())).collect();
+    let mut preferring = scores.clone();
+    for (m, name) in carried.iter().enumerate() {
+        (0..rules.len()).filter(|&r| rules[r].name == name.name).for_each(|r| preferring[(m, r)] *= CLEARLY);
+    }
+    let renamed = assign(&preferring, rules, &named);
+    let settle = |(m, name): (usize, &Name)| match renamed[m] {
+        Some(r) if rules[r].name != name.name => Name { name: rules[r].name.to_owned(), confidence: confidence(&scores, m, r, rules) },
+        _ => name.clone(),
+    };
+    carried.iter().enumerate().map(settle).collect()
 }
