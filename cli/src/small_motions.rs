@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::output::linear::Linear;
 use crate::output::modes::{Branch, Critical, ModesAlong, NamedMode, PointModes};
 use crate::output::{Point, Progress};
-use crate::plan::{Prescribed, Request};
+use crate::plan::{Prescribed, Request, Turn};
 use crate::steady::{self, Steady};
 use analyses::linearize::{BoundInputs, Options};
 use analyses::modes::critical::zero;
@@ -98,6 +98,55 @@ impl SmallMotions<'_> {
         }
     }
 
+    /// Modes on the way from straight running at constant speed (0) to a point (1).
+    fn modes_on_the_way(&self, given: &[f64], t: f64, states: &[String]) -> Option<Modes> {
+        let mut request = self.request.clone();
+        let mut values = given.iter();
+        request.speed.as_mut()?.values = vec![*values.next()?];
+        if let Some((turn, prescribed)) = &mut request.turn {
+            let value = *values.next()?;
+            prescribed.values = vec![if *turn == Turn::Radius { value / t } else { value * t }];
+        }
+        if let Some(acceleration) = &mut request.acceleration {
+            acceleration.values = vec![*values.next()? * t];
+        }
+        if t == 0.0 {
+            (request.turn, request.acceleration) = (None, None);
+        }
+        let found = steady::run(&request, self.system, self.backend, "on the way").ok()?;
+        match found.points.as_slice() {
+            [point] => self.modes(point, states).ok(),
+            _ => None,
+        }
+    }
+
+    /// Whether a point runs straight at constant speed, which is what the rules of names are made for.
+    fn is_plain(&self, given: &[f64]) -> bool {
+        let first = usize::from(self.request.speed.is_some());
+        let turns_by_radius = matches!(self.request.turn, Some((Turn::Radius, _)));
+        given.iter().skip(first).all(|v| *v == 0.0) && !turns_by_radius
+    }
+
+    /// Straight running at the speed of the middle one of the points, and how its modes become those of that point; none where the points
+    /// have straight running among them, or none can be reached.
+    fn straight(&self, steady: &Steady, points: &[Option<&Modes>], states: &[String]) -> Option<(Modes, Edge)> {
+        let by_torque = matches!(self.request.turn, Some((Turn::SteerTorque, _)));
+        let known: Vec<usize> = (0..points.len()).filter(|&k| points[k].is_some()).collect();
+        if by_torque || known.iter().any(|&k| self.is_plain(&steady.points[k].given)) {
+            return None;
+        }
+        let to = *known.get(known.len() / 2)?;
+        let given = &steady.points[to].given;
+        let straight = self.modes_on_the_way(given, 0.0, states)?;
+        // labels of a corner are only as good as the way to it: never in one step
+        let middle = self.modes_on_the_way(given, 0.5, states)?;
+        let mut first_half = |t: f64| self.modes_on_the_way(given, 0.5 * t, states);
+        let first = link_finely(&straight, &middle, &mut first_half)?;
+        let mut second_half = |t: f64| self.modes_on_the_way(given, 0.5 + 0.5 * t, states);
+        let link = first.then(&link_finely(&middle, points[to]?, &mut second_half)?);
+        Some((straight, Edge { from: points.len(), to, link }))
+    }
+
     /// All modes at all points: named, followed along the sweep, with the changes of stability between points.
     ///
     /// # Errors
@@ -123,7 +172,16 @@ impl SmallMotions<'_> {
             })
             .collect();
         let only_edges: Vec<Edge> = edges.iter().map(|(_, e)| e.clone()).collect();
-        let named = names(&points, &only_edges, MODE_RULES);
+        let straight = self.straight(steady, &points, &states);
+        let mut all_points = points.clone();
+        let mut plain: Vec<bool> = steady.points.iter().map(|p| self.is_plain(&p.given)).collect();
+        let mut all_edges = only_edges;
+        if let Some((modes, edge)) = &straight {
+            all_points.push(Some(modes));
+            plain.push(true);
+            all_edges.push(edge.clone());
+        }
+        let named = names(&all_points, &plain, &all_edges, MODE_RULES);
         let critical: Vec<Vec<Critical>> =
             edges.par_iter().map(|(_, edge)| self.critical(steady, &points, edge, &named, &states)).collect();
         let along = swept(steady).first().copied();

@@ -56,7 +56,7 @@ impl Link {
 
     /// This way, then another one.
     #[must_use]
-    fn then(&self, next: &Self) -> Self {
+    pub fn then(&self, next: &Self) -> Self {
         let alike = self.to.iter().zip(&self.alike).map(|(&k, a)| a.min(next.alike[k]));
         Self { to: self.to.iter().map(|&k| next.to[k]).collect(), alike: alike.collect() }
     }
@@ -111,13 +111,15 @@ pub struct Edge {
 
 /// Names of the modes of all points, in the order of each point's modes; empty where there is no point.
 ///
-/// `edges` join neighbors in any order; points that nothing joins to the rest are named by themselves.
-pub fn names(points: &[Option<&Modes>], edges: &[Edge], rules: &[ModeRule]) -> Vec<Vec<Name>> {
+/// `edges` join neighbors in any order; points that nothing joins to the rest are named by themselves. Points marked as `plain` are those that
+/// the rules are made for (straight running): where there are some, names are given there.
+pub fn names(points: &[Option<&Modes>], plain: &[bool], edges: &[Edge], rules: &[ModeRule]) -> Vec<Vec<Name>> {
     let alone: Vec<(Vec<Name>, f64)> = points.iter().map(|p| p.map_or((Vec::new(), 0.0), |modes| classify(modes, rules))).collect();
     let mut named: Vec<Option<Vec<Name>>> = vec![None; points.len()];
+    let rank = |k: usize| (plain[k] && points[k].is_some(), alone[k].1);
     let best_left = |named: &[Option<Vec<Name>>]| {
         let left = (0..points.len()).filter(|&k| named[k].is_none());
-        left.fold(None, |best: Option<usize>, k| best.filter(|&b| alone[b].1 >= alone[k].1).or(Some(k)))
+        left.fold(None, |best: Option<usize>, k| best.filter(|&b| rank(b) >= rank(k)).or(Some(k)))
     };
     while let Some(anchor) = best_left(&named) {
         named[anchor] = Some(alone[anchor].0.clone());
@@ -174,8 +176,8 @@ fn carried(from: &Modes, names: &[Name], link: &Link, to: &Modes, rules: &[ModeR
     }
     let renamed = assign(&preferring, rules, &named);
     let settle = |(m, name): (usize, &Name)| match renamed[m] {
-        Some(r) if rules[r].name != name.name => Name { name: rules[r].name.to_owned(), confidence: confidence(&scores, m, r, rules) },
-        _ => name.clone(),
+        Some(r) => Name { name: rules[r].name.to_owned(), confidence: confidence(&scores, m, r, rules) },
+        None => name.clone(),
     };
     carried.iter().enumerate().map(settle).collect()
 }
