@@ -11,7 +11,7 @@ use crate::{Context, Exit, Failure, model, results, steady};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::{Finding, Severity};
 use mbody::description::quantity::dimension::Number;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "linearize", command, run };
@@ -80,7 +80,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
 }
 
 /// The format of an exported file.
-fn format_of(path: &PathBuf) -> Result<Export, Failure> {
+fn format_of(path: &Path) -> Result<Export, Failure> {
     Export::of(path).ok_or_else(|| {
         let finding = argument("export", &path.display().to_string(), "unknown_value", "there is no file of this format");
         finding.with_hint("the name of the file ends in `.json`, `.npz` or `.mat`").into()
