@@ -115,6 +115,11 @@ fn prescribed<D: Dimensioned>(option: &str, name: &'static str, text: &Option<St
 }
 
 impl TrimArguments {
+    /// `--gear` as an override: a parameter of the element `engine`.
+    pub fn gear_override(&self) -> Option<String> {
+        self.gear.map(|gear| format!("engine.gear={gear}"))
+    }
+
     /// Reads all values.
     ///
     /// # Errors

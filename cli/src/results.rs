@@ -14,7 +14,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+/// Writes a file, or says which one could not be written.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     fs::write(path, bytes).map_err(|e| Failure::Write { path: path.display().to_string(), cause: e.to_string() })
 }
 

@@ -7,6 +7,7 @@
 pub mod aero;
 pub mod brake;
 pub mod drivetrain;
+pub mod handling;
 mod kinds;
 mod planar;
 mod signal;

@@ -5,7 +5,9 @@
 mod check;
 mod dynamics;
 mod info;
+mod linearize;
 mod map;
+mod modes;
 mod run;
 mod schema;
 mod trim;

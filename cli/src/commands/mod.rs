@@ -3,7 +3,9 @@
 mod check;
 mod dynamics;
 mod info;
+mod linearize;
 mod map;
+mod modes;
 mod run;
 mod schema;
 mod trim;
@@ -22,7 +24,8 @@ pub struct Kind {
 }
 
 /// All commands, in the order of the help.
-pub const KINDS: &[Kind] = &[trim::KIND, map::KIND, run::KIND, info::KIND, check::KIND, dynamics::KIND, schema::KIND];
+pub const KINDS: &[Kind] =
+    &[trim::KIND, map::KIND, modes::KIND, linearize::KIND, run::KIND, info::KIND, check::KIND, dynamics::KIND, schema::KIND];
 
 /// Version, profile, processor level and SUNDIALS version.
 fn version() -> String {

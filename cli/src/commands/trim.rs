@@ -39,7 +39,7 @@ fn command(command: Command) -> Command {
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let mut arguments: Arguments = read(matches)?;
-    gear(&mut arguments);
+    arguments.model.set.extend(arguments.trim.gear_override());
     let request = arguments.trim.request()?;
     arguments.output.check()?;
     if arguments.output.plot.is_some() && request.swept() == 0 {
@@ -75,13 +75,6 @@ fn versus(variant: &str, arguments: &Arguments, signals: &[Signal], context: &Co
         point.values = order.iter().map(|k| k.map_or(f64::NAN, |k| point.values[k])).collect();
     }
     Ok(Variant { name: variant.to_owned(), points })
-}
-
-/// `--gear` is a parameter of the element `engine`.
-fn gear(arguments: &mut Arguments) {
-    if let Some(gear) = arguments.trim.gear {
-        arguments.model.set.push(format!("engine.gear={gear}"));
-    }
 }
 
 /// Lines over the quantity that is swept, one panel per shown signal.

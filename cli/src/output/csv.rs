@@ -2,16 +2,22 @@
 //!
 //! The first line names the columns: `given.<name>` for what was prescribed, `ending`, `iterations`, `residual`, then the signals under the
 //! names that `units` lists in the JSON output. There is no line of units, so that every reader of CSV takes the columns as numbers.
-//! A value that is not finite or was not computed is an empty cell. With `--versus`, a first column `variant` tells the rows apart.
+//! A value that is not finite or was not computed is an empty cell. Modes have a line each, linear
+//! models one for every entry that is not zero. With `--versus`, a first column `variant` tells the rows apart.
 
-use super::report::Report;
-use super::{Kind, Options, history};
+use super::report::{Beside, Report};
+use super::{Kind, Options, history, linear, modes};
 use std::io;
 
 pub(super) const KIND: Kind =
     Kind { name: "csv", about: "one line per point, SI units and radians", write, write_history: history::csv::write };
 
 fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+    match &report.beside {
+        Beside::Nothing => {}
+        Beside::Linear(linear) => return linear::write_csv(report, linear, out),
+        Beside::Modes(modes) => return modes::write_csv(report, modes, out),
+    }
     let mut table = ::csv::Writer::from_writer(out);
     let given = report.given.iter().map(|g| format!("given.{}", g.name));
     let outcome = ["ending", "iterations", "residual"].map(str::to_owned);

@@ -2,8 +2,8 @@
 //!
 //! A value that is not finite is `null`; `signals` is empty where nothing was computed.
 
-use super::report::{Point, Report};
-use super::{Kind, Options, history};
+use super::report::{Beside, Point, Report};
+use super::{Kind, Options, history, linear, modes};
 use problem::Ending;
 use serde_json::{Map, Value, json};
 use std::io;
@@ -17,7 +17,7 @@ fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()
 }
 
 /// The report as a JSON value.
-fn object(report: &Report) -> Value {
+pub(super) fn object(report: &Report) -> Value {
     let units: Map<String, Value> = report.signals.iter().map(|s| (s.name.clone(), json!(s.unit))).collect();
     let given_units: Map<String, Value> = report.given.iter().map(|g| (g.name.clone(), json!(g.unit))).collect();
     let mut object = json!({
@@ -30,6 +30,11 @@ fn object(report: &Report) -> Value {
         "points": report.points.iter().map(|p| point(report, p)).collect::<Vec<_>>(),
         "warnings": report.warnings,
     });
+    match &report.beside {
+        Beside::Nothing => {}
+        Beside::Linear(linear) => linear::add_json(linear, &mut object),
+        Beside::Modes(modes) => modes::add_json(modes, &report.given, &mut object),
+    }
     if !report.variants.is_empty() {
         let points = |v: &super::Variant| v.points.iter().map(|p| point(report, p)).collect::<Vec<_>>();
         let variants: Vec<Value> = report.variants.iter().map(|v| json!({ "variant": v.name, "points": points(v) })).collect();

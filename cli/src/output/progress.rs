@@ -10,9 +10,9 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar over `total` steps of `what`; silent where standard error is no terminal.
+    /// A bar over `total` steps of `what`; silent where standard error is no terminal, and for a single step.
     pub fn new(what: &str, total: usize) -> Self {
-        Self::on(what, total, std::io::stderr().is_terminal())
+        Self::on(what, total, total > 1 && std::io::stderr().is_terminal())
     }
 
     fn on(what: &str, total: usize, terminal: bool) -> Self {

@@ -1,7 +1,7 @@
 //! The result of an analysis at one or several points, before it becomes text.
 
 use super::axes::Axes;
-use super::{Kind, Results, Writer};
+use super::{Kind, Results, Writer, linear, modes};
 use problem::{Ending, Signal};
 use serde_json::json;
 use std::borrow::Cow;
@@ -55,6 +55,18 @@ pub struct Variant {
     pub points: Vec<Point>,
 }
 
+/// What an analysis found at the points beside their signals.
+#[derive(Clone, Debug, Default)]
+pub enum Beside {
+    /// Nothing: steady states are all there is.
+    #[default]
+    Nothing,
+    /// A linear model at every point.
+    Linear(linear::Linear),
+    /// The modes at every point.
+    Modes(modes::ModesAlong),
+}
+
 /// Everything that a command such as `trim` or `map` found out. Values are SI.
 #[derive(Clone, Debug)]
 pub struct Report {
@@ -74,6 +86,8 @@ pub struct Report {
     pub points: Vec<Point>,
     /// The same analysis for variants.
     pub variants: Vec<Variant>,
+    /// What the analysis found beside the signals.
+    pub beside: Beside,
     /// What the reader should know beside the results. The table leaves them to standard error.
     pub warnings: Vec<String>,
 }
@@ -90,6 +104,7 @@ impl Report {
             shown: Vec::new(),
             points: Vec::new(),
             variants: Vec::new(),
+            beside: Beside::Nothing,
             warnings: Vec::new(),
         }
     }
@@ -114,6 +129,11 @@ impl Results for Report {
                 (*value, *threshold) = (turned(*value, signal), turned(*threshold, signal));
             }
         }
+        match &mut self.beside {
+            Beside::Nothing => {}
+            Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
+            Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
+        }
         self.axes = axes;
         self
     }
@@ -132,7 +152,12 @@ impl Results for Report {
     }
 
     fn reached(&self) -> bool {
-        self.points.iter().any(|p| p.ending == Ending::Reached)
+        let found = |k: usize| match &self.beside {
+            Beside::Nothing => true,
+            Beside::Linear(linear) => linear.points.get(k).is_some_and(Result::is_ok),
+            Beside::Modes(modes) => modes.points.get(k).is_some_and(Result::is_ok),
+        };
+        self.points.iter().enumerate().any(|(k, p)| p.ending == Ending::Reached && found(k))
     }
 }
 

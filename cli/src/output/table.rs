@@ -3,8 +3,8 @@
 use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
-use super::report::{Point, Report};
-use super::{Angles, Kind, Options, history, versus};
+use super::report::{Beside, Point, Report};
+use super::{Angles, Kind, Options, history, linear, modes, versus};
 use problem::Ending;
 use std::io;
 
@@ -32,6 +32,11 @@ fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Res
     for line in report.axes.signs() {
         writeln!(out, "{}", styled(faint, line))?;
     }
+    match &report.beside {
+        Beside::Nothing => {}
+        Beside::Linear(linear) => return linear::write_table(report, linear, options, out),
+        Beside::Modes(modes) => return modes::write_table(report, modes, options, out),
+    }
     match report.points.as_slice() {
         [] => {}
         [point] => write_one(report, point, options, out)?,
@@ -46,6 +51,12 @@ pub(super) fn quantity(value: f64, unit: &str, angles: Angles) -> String {
     format!("{} {}", number(value * shown.factor), shown.unit).trim_end().to_owned()
 }
 
+/// `speed 20 m/s, lean 30 deg` of one point.
+pub(super) fn prescribed(report: &Report, point: &Point, angles: Angles) -> String {
+    let texts = report.given.iter().zip(&point.given).map(|(g, &v)| format!("{} {}", g.name, quantity(v, &g.unit, angles)));
+    texts.collect::<Vec<_>>().join(", ")
+}
+
 /// `given: …` for the quantities with these indices; nothing where there are none.
 fn write_given(report: &Report, indices: &[usize], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let (Some(point), false) = (report.points.first(), indices.is_empty()) else { return Ok(()) };
@@ -57,7 +68,7 @@ fn write_given(report: &Report, indices: &[usize], options: &Options, out: &mut 
 }
 
 /// A sentence on how a point ended, colored by its kind.
-fn describe(report: &Report, point: &Point, options: &Options) -> String {
+pub(super) fn describe(report: &Report, point: &Point, options: &Options) -> String {
     let palette = options.palette;
     match &point.ending {
         Ending::Reached => {

@@ -9,6 +9,8 @@ use super::{style, text};
 pub(super) enum Key {
     /// A line, with the marker of this index where it has markers.
     Line(Pen, Option<usize>),
+    /// A ring: where paths begin.
+    Ring,
     /// An area.
     Area(Ground),
 }
@@ -102,6 +104,7 @@ fn draw_entry(canvas: &mut Canvas, (key, name): &(Key, String), (x, y): Point) {
                 draw_marker(canvas, index, (x + KEY_WIDTH / 2.0, y), pen);
             }
         }
+        Key::Ring => canvas.disc((x + KEY_WIDTH / 2.0, y), 1.3 * style::MARKER, style::WHITE, Pen::solid(style::INK, 1.5)),
         Key::Area(ground) => {
             let swatch = Rect { x: x + 1.0, y: y - 5.5, width: KEY_WIDTH - 2.0, height: 11.0 };
             canvas.rect(swatch, Some(ground), Some(Pen::solid(style::RULE, 0.7)));

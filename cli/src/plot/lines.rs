@@ -218,7 +218,7 @@ fn runs(curve: &Curve, panel: &Panel) -> Vec<Vec<Point>> {
 }
 
 /// Points at most four units apart along a line.
-fn dense(run: &[Point]) -> Vec<Point> {
+pub(super) fn dense(run: &[Point]) -> Vec<Point> {
     let mut points = run.to_vec();
     for w in run.windows(2) {
         let n = ((w[1].0 - w[0].0).hypot(w[1].1 - w[0].1) / 4.0).min(1000.0) as usize;

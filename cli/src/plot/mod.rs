@@ -12,12 +12,14 @@ mod legend;
 mod lines;
 mod panel;
 mod raster;
+mod root_locus;
 mod style;
 mod text;
 
 pub use axis::{Axis, Scale};
 pub use contour::{Contour, Node};
 pub use lines::{Band, Curve, LinePanel, Lines, Markers};
+pub use root_locus::{Locus, RootLocus};
 
 use canvas::Lettering;
 use std::path::Path;
@@ -29,6 +31,8 @@ pub enum Figure {
     Contour(Contour),
     /// One or several quantities against another, in stacked panels.
     Lines(Lines),
+    /// Eigenvalues in the complex plane.
+    RootLocus(RootLocus),
 }
 
 impl Figure {
@@ -41,6 +45,7 @@ impl Figure {
         match self {
             Self::Contour(figure) => figure.draw(lettering),
             Self::Lines(figure) => figure.draw(lettering),
+            Self::RootLocus(figure) => figure.draw(lettering),
         }
     }
 

@@ -106,6 +106,11 @@ pub(super) fn curve_dash(index: usize) -> &'static str {
     DASHES[index % DASHES.len()]
 }
 
+/// Dash pattern where colors tell curves apart as long as they last: another one for every round of colors.
+pub(super) fn round_dash(index: usize) -> &'static str {
+    DASHES[index / CURVES.len() % DASHES.len()]
+}
+
 /// How values become colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ColorMap {

@@ -1,13 +1,15 @@
 //! Analyses as services: they know signals and problem traits, never an engine and never a trade.
 //!
-//! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them, [`mod@eigen`] their eigenvalues;
-//! [`transient`] follows a motion over time; [`expression`] is the small language in which conditions are written.
+//! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them, [`mod@eigen`] their eigenvalues, which
+//! [`modes`] names and follows along a sweep; [`transient`] follows a motion over time; [`expression`] is the small language in which
+//! conditions are written.
 
 #![allow(non_snake_case)]
 
 pub mod eigen;
 pub mod expression;
 pub mod linearize;
+pub mod modes;
 pub mod transient;
 pub mod trim;
 pub mod variable;
@@ -15,4 +17,5 @@ pub mod variable;
 pub use eigen::{EigenError, Spectrum, eigen};
 pub use expression::{Expression, ExpressionError};
 pub use linearize::{LinearModel, LinearizeError, linearize};
+pub use modes::{Mode, Modes};
 pub use variable::{Variable, Variables};

@@ -9,6 +9,7 @@ mod algebraic;
 mod error;
 mod integration;
 mod matrix;
+mod mode;
 mod motion;
 mod outcome;
 mod plant;
@@ -20,6 +21,7 @@ pub use integration::{
     AlgebraicErrors, DaeMethod, DaeProblem, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink,
 };
 pub use matrix::Matrix;
+pub use mode::{ModeRule, Nature, Occurs};
 pub use motion::{Explicit, Integrable, Off, Projection, ProjectionError};
 pub use outcome::Ending;
 pub use plant::{At, Dae, Differentiable, Equation, EquationKind, Input, Limit, Limits, Outputs, Plant, Seeds, Side, Unknown, UnknownKind};

@@ -2,6 +2,8 @@
 
 use super::source::{printed_eigenvalues, sorted, state_matrix};
 use analyses::linearize::{LinearModel, Options, linearize};
+use fastbike::small_motions::{Shapes, SmallMotions};
+use fastbike::steady;
 use mbody::dynamics::{Formulation, TreePlant};
 use nalgebra::{DMatrix, Matrix4};
 use problem::{At, Dae};
@@ -9,7 +11,7 @@ use validation::agreement::{Agreement, absolute, relative};
 use validation::evidence::Row;
 use validation::instant::Instant;
 use validation::reference::Table;
-use validation::vehicle::Vehicle;
+use validation::vehicle::{Vehicle, running};
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -28,7 +30,29 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "Meijaard et al. (2007), section 4 (d)",
         "relative 1e-12: double precision of eigenvalues over their slope (the source prints fifteen digits)"
     ),
+    printed_speeds_of_stability_are_found => (
+        "`whipple`: weave and capsize speed, between which it stays upright by itself, from a sweep in steps of 1 m/s by the way of `modes`",
+        "Meijaard et al. (2007), section 7",
+        "1e-8 m/s: the root is enclosed to 1e-10 of the step, eigenvalues are good to 5e-12 1/s (the source prints twelve decimals)"
+    ),
 ];
+
+#[test]
+fn printed_speeds_of_stability_are_found() {
+    let speeds: Vec<f64> = (1..=10).map(f64::from).collect();
+    let (request, system) = (running(&speeds), Vehicle::bundled("whipple").system);
+    let steady = steady::run(&request, &system, "kinsol", "modes").unwrap_or_else(|failure| panic!("{failure}"));
+    let small = SmallMotions { request: &request, system: &system, backend: "kinsol", residual_tolerance: 1e-6 };
+    let modes = small.along(&steady, Shapes::LeftOut).unwrap_or_else(|failure| panic!("{failure}"));
+    let mut agreement = Agreement::on("whipple: weave and capsize speed");
+    let enclosed = absolute(1e-8).because("double precision of the eigenvalues over their slope of about 0.1 1/m");
+    agreement.holds("two changes of stability", modes.critical.len() == 2);
+    for (found, (name, printed)) in modes.critical.iter().zip([("weave", 4.292_382_536_341), ("capsize", 6.024_262_015_388)]) {
+        agreement.holds(&format!("{name} is called {}", found.name), found.name == name);
+        agreement.near(&format!("{name} speed"), found.given[0], printed, &enclosed);
+    }
+    agreement.assert();
+}
 
 /// The bicycle linearized about straight running, lean and steer among the states.
 fn straight(speed: f64) -> LinearModel {

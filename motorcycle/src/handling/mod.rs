@@ -1,0 +1,5 @@
+//! What is particular to the handling of single-track vehicles in analyses that know no vehicle.
+
+mod mode_names;
+
+pub use mode_names::MODE_RULES;
