@@ -34,7 +34,7 @@ fn energy(plant: &mut TreePlant, y: &[f64], yd: &[f64]) -> f64 {
 fn bicycle(clock: &mut Clock, name: &str, implicit: bool) {
     let mut plant = TreePlant::in_formulation(bundled("whipple"), Formulation::Ggl);
     // kinetic and potential energy of the source at t = 0
-    let before = 1575.172_902_477;
+    let before = 1_575.172_902_477;
     for exponent in 3..12 {
         let tolerance = 10_f64.powi(-exponent);
         let run = simulate(&mut plant, implicit, tolerance);
