@@ -86,7 +86,7 @@ pub struct Closed {
     pub constraints: Vec<Constraint>,
     /// Held rows: constraint and row; the others depend on them.
     pub held: Vec<(usize, usize)>,
-    /// [nq] independent coordinates, where they differ from the references of the joints.
+    /// \[nq\] independent coordinates, where they differ from the references of the joints.
     pub q: Option<Vec<f64>>,
 }
 
