@@ -15,8 +15,6 @@ use std::time::Instant;
 
 /// Rate at which an error of the constraints decays in the formulation of accelerations, 1/s.
 const DECAY: f64 = 10.0;
-/// First step of an implicit method, s.
-const FIRST_STEP: f64 = 1e-6;
 /// The relative tolerance at which absolute tolerances are those that the signals declare.
 const USUAL_TOLERANCE: f64 = 1e-6;
 /// The total energy, beside the signals of the plant.
@@ -90,13 +88,19 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
         absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),
-        first_step: (!explicit).then(|| first_step(&request.times)),
         ..IntegrationOptions::default()
     };
     transient.record = (0..n).map(Variable::Unknown).chain(recorded.variables.iter().copied()).collect();
     let began = Instant::now();
     let simulation = follow(&mut transient, &mut plant, &given, &backend.make, &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
+    if let Some(near) = simulation.near_singular {
+        warnings.push(format!(
+            "at {:.4} s the mechanism is near a singular position (constraints are {:.1e} as independent as at the start): what follows may be another branch of the \
+             motion; compare tolerances, and look at `{ENERGY}`",
+            near.time, near.independence
+        ));
+    }
     let (energy, drift) = account(&simulation, system, &given.inputs.0);
     let mut signals = simulation.trajectory.signals[n..].to_vec();
     let mut columns = simulation.trajectory.columns[n..].to_vec();
@@ -141,15 +145,6 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
 fn absolute_factor(relative_tolerance: f64, explicit: bool) -> f64 {
     let factor = relative_tolerance / USUAL_TOLERANCE;
     if explicit { factor } else { factor.max(1.0) }
-}
-
-/// First step of an implicit method, s.
-///
-/// IDA's own choice, half a tolerance over the largest rate, is some 1e-10 s for a mechanism that starts from rest. Over such a step the
-/// rounding of a closed loop (1e-17 m) is a correction of 1e-7 m/s, which no iteration resolves, and shorter steps are worse.
-fn first_step(times: &[f64]) -> f64 {
-    let interval = times.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
-    FIRST_STEP.min(interval)
 }
 
 fn formulation(name: Option<&str>) -> Result<Formulation, Failure> {

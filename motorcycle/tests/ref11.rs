@@ -45,7 +45,14 @@ struct Chain {
 
 impl ForceLaw for Chain {
     fn declare(&self, element: &str) -> Declared {
-        let input = InputDeclared { name: format!("{element}.torque"), unit: "N m", about: "on the wheel", nominal: 100.0, rate: None };
+        let input = InputDeclared {
+            name: format!("{element}.torque"),
+            unit: "N m",
+            about: "on the wheel",
+            nominal: 100.0,
+            rate: None,
+            default: 0.0,
+        };
         Declared { inputs: vec![input], ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {
@@ -149,8 +156,8 @@ fn ref11() -> Rig {
         Force::new("fork_spring", spring("fork", 800.0, 18000.0, 1200.0)),
         Force::new("shock", spring("swingarm", 500.0, 7050.0, 450.0)),
         Force::new("steer_damper", spring("steer", 0.0, 0.0, 1.0)),
-        Force::new("steering", JointEffort { joint: body("steer"), unit: JointEffortUnit::Torque }),
-        Force::new("front_brake", JointEffort { joint: body("front_wheel"), unit: JointEffortUnit::Torque }),
+        Force::new("steering", JointEffort { joint: body("steer"), unit: JointEffortUnit::Torque, default: 0.0 }),
+        Force::new("front_brake", JointEffort { joint: body("front_wheel"), unit: JointEffortUnit::Torque, default: 0.0 }),
         Force::new("chain", Chain { main, wheel: body("rear_wheel") }),
         Force::new("drag", Drag { body: main }),
         Force::new("front_tire", tire(&model, &FRONT)),

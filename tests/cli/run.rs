@@ -159,7 +159,7 @@ fn a_motion_that_ends_early_is_written_and_ends_with_one() {
     assert!(time.len() > 100 && reached < 3.0 && time.last() == Some(&reached), "{reached} {time:?}");
     assert_eq!(column(&report, "chassis.roll").len(), time.len());
     let answer = fastbike(&fall);
-    assert!(answer.stderr.starts_with("error: the motion ended at "), "{}", answer.stderr);
+    assert!(answer.stderr.contains("error: the motion ended at "), "{}", answer.stderr);
     let kept: Value = serde_json::from_str(&fs::read_to_string(folder.join("kept/run.json")).expect("run.json")).expect("JSON");
     assert!(kept["statistics"]["steps"].is_number());
     assert!(folder.join("kept/results.csv").exists());
@@ -194,4 +194,13 @@ fn a_plain_urdf_falls() {
     // a tolerance of 1e-6 over some hundred steps
     let scale = energy.iter().fold(1.0_f64, |m, e| m.max(e.abs()));
     assert!(energy.iter().all(|e| (e - energy[0]).abs() < 1e-3 * scale), "{energy:?}");
+}
+
+#[test]
+fn a_singular_position_on_the_way_is_told() {
+    // all rods in line: the two four-bars may go on as parallelograms or fold
+    let through = fastbike(&["run", "n_four_bar", "--duration", "1s"]);
+    assert!(through.stderr.contains("near a singular position"), "{}", through.stderr);
+    let past = fastbike(&["run", "bricard", "--duration", "1s"]);
+    assert!(!past.stderr.contains("singular"), "{}", past.stderr);
 }

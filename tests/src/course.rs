@@ -27,9 +27,7 @@ impl By {
     fn options(self) -> IntegrationOptions {
         let (Self::Erk(relative_tolerance, absolute_tolerance_factor) | Self::Ida(relative_tolerance, absolute_tolerance_factor)) = self;
         let algebraic = AlgebraicErrors::Suppressed;
-        // IDA's own first step is that of a change by the tolerance: too short to tell forces of constraints from rounding
-        let first_step = matches!(self, Self::Ida(..)).then_some(1e-6);
-        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, first_step, max_steps: 50_000, algebraic, ..Default::default() }
+        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 50_000, algebraic, ..Default::default() }
     }
 }
 

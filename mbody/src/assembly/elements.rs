@@ -4,7 +4,7 @@ use super::characteristic::{
     AirDescription, DamperDescription, FrictionDescription, LawDescription, Motion, Sliding, SpringDescription, StopsDescription, Turning,
 };
 use super::{ElementDescription, ElementKind, PointDescription, Site};
-use crate::description::quantity::dimension::{Angle, AngularDamping, AngularStiffness, Damping, Length, Stiffness};
+use crate::description::quantity::dimension::{Angle, AngularDamping, AngularStiffness, Damping, Force, Length, Stiffness, Torque};
 use crate::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
 use crate::force::{AppliedWrench, Bushing, JointEffort, JointEffortUnit, JointSpring, PointSensor, SpringDamper, WrenchAxes};
 use crate::model::BodyIndex;
@@ -104,16 +104,18 @@ impl ElementDescription for JointTorsionSpringDescription {
 pub struct JointForceDescription {
     /// Name of the joint.
     joint: String,
+    /// Force where nobody says otherwise; 0 where left out.
+    force: Option<Quantity<Force>>,
 }
 
 impl ElementDescription for JointForceDescription {
     const KIND: &'static str = "joint_force";
     const ABOUT: &'static str = "input `<element>.force` on a joint that slides";
-    const EXAMPLE: &'static str = "{ joint: slider }";
+    const EXAMPLE: &'static str = "{ joint: slider, force: 20 N }";
     type Law = JointEffort;
     fn assemble(self, site: &mut Site<'_>) -> Option<JointEffort> {
         let joint = site.joint_with("joint", &self.joint, "m")?;
-        Some(JointEffort { joint, unit: JointEffortUnit::Force })
+        Some(JointEffort { joint, unit: JointEffortUnit::Force, default: self.force.map_or(0.0, Quantity::si) })
     }
 }
 
@@ -123,16 +125,18 @@ impl ElementDescription for JointForceDescription {
 pub struct JointTorqueDescription {
     /// Name of the joint.
     joint: String,
+    /// Torque where nobody says otherwise; 0 where left out.
+    torque: Option<Quantity<Torque>>,
 }
 
 impl ElementDescription for JointTorqueDescription {
     const KIND: &'static str = "joint_torque";
     const ABOUT: &'static str = "input `<element>.torque` on a joint that turns";
-    const EXAMPLE: &'static str = "{ joint: pivot }";
+    const EXAMPLE: &'static str = "{ joint: pivot, torque: 3 N m }";
     type Law = JointEffort;
     fn assemble(self, site: &mut Site<'_>) -> Option<JointEffort> {
         let joint = site.joint_with("joint", &self.joint, "rad")?;
-        Some(JointEffort { joint, unit: JointEffortUnit::Torque })
+        Some(JointEffort { joint, unit: JointEffortUnit::Torque, default: self.torque.map_or(0.0, Quantity::si) })
     }
 }
 

@@ -249,6 +249,14 @@ impl<'a> Closure<'a> {
         if off.is_empty() { Ok(()) } else { Err(off) }
     }
 
+    /// Smallest part of one of the rows of J that does not depend on the others, at the last evaluated point: 0 in a singular position.
+    ///
+    /// Rows are not made of equal length: near a singular position a row may vanish as a whole.
+    pub fn independence(&self, rows: &[(usize, usize)]) -> f64 {
+        let R = self.jacobian(rows).transpose().col_piv_qr().r();
+        (0..rows.len()).map(|i| if i < R.nrows() { R[(i, i)].abs() } else { 0.0 }).fold(f64::INFINITY, f64::min)
+    }
+
     /// Rows beyond a tolerance, worst first.
     fn off(&self, rows: &[(usize, usize)], tolerance: f64, value: fn(&RowValue<f64>) -> f64, per: &str) -> Vec<Off> {
         let mut off: Vec<Off> = Vec::new();

@@ -235,6 +235,22 @@ impl Projection for TreePlant {
         self.closure = Some(closure.into_work());
         projected
     }
+
+    fn independence(&mut self, time: f64, y: &[f64], u: &[f64]) -> f64 {
+        if self.system.multipliers.is_empty() {
+            return 1.0;
+        }
+        let system = self.system.clone();
+        let work = self.closure.take().unwrap_or_else(|| Work::new(&system.model, &system.constraints));
+        let mut closure = Closure::with(&system.model, &system.constraints, work);
+        closure.at_moment(time, u, &system.constraint_inputs);
+        let (nq, nv) = (system.model.layout.nq(), system.model.layout.nv());
+        closure.evaluate(&y[..nq], &y[nq..nq + nv]);
+        let rows: Vec<(usize, usize)> = system.multipliers.iter().map(|m| (m.constraint, m.row)).collect();
+        let independence = closure.independence(&rows);
+        self.closure = Some(closure.into_work());
+        independence
+    }
 }
 
 impl Explicit for TreePlant {

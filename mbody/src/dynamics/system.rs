@@ -266,7 +266,7 @@ impl System {
                 Some(i) => i,
                 None => {
                     let signal = Signal::new(d.name.clone(), d.unit, d.about);
-                    self.inputs.push(Input { signal, rate: None, nominal: d.nominal, default: 0.0 });
+                    self.inputs.push(Input { signal, rate: None, nominal: d.nominal, default: d.default });
                     self.inputs.len() - 1
                 }
             });

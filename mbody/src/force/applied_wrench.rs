@@ -46,7 +46,8 @@ impl ForceLaw for AppliedWrench {
         const INPUTS: [(&str, &str); 6] =
             [("force_x", "N"), ("force_y", "N"), ("force_z", "N"), ("moment_x", "N m"), ("moment_y", "N m"), ("moment_z", "N m")];
         let about = "applied from outside";
-        let inputs = INPUTS.map(|(q, unit)| InputDeclared { name: format!("{element}.{q}"), unit, about, nominal: 100.0, rate: None });
+        let inputs =
+            INPUTS.map(|(q, unit)| InputDeclared { name: format!("{element}.{q}"), unit, about, nominal: 100.0, rate: None, default: 0.0 });
         Declared { inputs: inputs.to_vec(), ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {

@@ -11,6 +11,8 @@ pub struct JointEffort {
     pub joint: BodyIndex,
     /// N on a prismatic joint, N m else.
     pub unit: JointEffortUnit,
+    /// Value where nobody says otherwise, N or N m.
+    pub default: f64,
 }
 
 impl ForceLaw for JointEffort {
@@ -22,6 +24,7 @@ impl ForceLaw for JointEffort {
             about: "applied to the joint, positive in the sense of its coordinate",
             nominal: 100.0,
             rate: None,
+            default: self.default,
         };
         Declared { inputs: vec![input], ..Default::default() }
     }

@@ -39,6 +39,8 @@ pub struct InputDeclared {
     pub nominal: f64,
     /// Full name of the input that is the rate of this one, where the element reads both.
     pub rate: Option<String>,
+    /// Value where nobody says otherwise.
+    pub default: f64,
 }
 
 /// An output that an element computes.

@@ -114,7 +114,7 @@ impl ForceLaw for Aerodynamics {
             output("air_speed", "m/s", "speed against the air"),
         ];
         let about = "speed of the air across the heading, positive blows to the left";
-        let wind = InputDeclared { name: format!("{}.lateral", self.wind), unit: "m/s", about, nominal: 10.0, rate: None };
+        let wind = InputDeclared { name: format!("{}.lateral", self.wind), unit: "m/s", about, nominal: 10.0, rate: None, default: 0.0 };
         Declared { inputs: vec![wind], outputs, ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {

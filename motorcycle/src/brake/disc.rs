@@ -34,7 +34,7 @@ impl Brake {
 impl ForceLaw for Brake {
     fn declare(&self, element: &str) -> Declared {
         let about = "torque of the brake against the spin of the wheel, not negative";
-        let input = InputDeclared { name: format!("{element}.torque"), unit: "N m", about, nominal: 100.0, rate: None };
+        let input = InputDeclared { name: format!("{element}.torque"), unit: "N m", about, nominal: 100.0, rate: None, default: 0.0 };
         Declared { inputs: vec![input], ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {

@@ -71,7 +71,7 @@ fn split<S: Real>(F: S, epsilon: f64) -> (S, S) {
 /// The input of a torque that drives a wheel.
 pub(super) fn drive_input(input: &str) -> InputDeclared {
     let about = "torque of the engine on the driven wheel, positive accelerates";
-    InputDeclared { name: format!("{input}.torque"), unit: "N m", about, nominal: 100.0, rate: None }
+    InputDeclared { name: format!("{input}.torque"), unit: "N m", about, nominal: 100.0, rate: None, default: 0.0 }
 }
 
 impl Chain {

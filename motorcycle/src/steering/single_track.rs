@@ -73,7 +73,7 @@ pub struct SingleTrack {
 impl ForceLaw for SingleTrack {
     fn declare(&self, _element: &str) -> Declared {
         let about = "torque of the rider on the handlebar, positive turns it to the left";
-        let torque = InputDeclared { name: format!("{}.torque", self.input), unit: "N m", about, nominal: 100.0, rate: None };
+        let torque = InputDeclared { name: format!("{}.torque", self.input), unit: "N m", about, nominal: 100.0, rate: None, default: 0.0 };
         let output = |name: &str, unit, about| OutputDeclared { name: name.into(), unit, about };
         let outputs = vec![
             output("lateral_acceleration", "m/s²", "forward speed times yaw rate, positive to the left"),

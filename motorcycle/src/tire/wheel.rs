@@ -46,8 +46,15 @@ impl Wheel {
     pub(super) fn inputs(&self) -> Vec<InputDeclared> {
         let (height, rate) = (format!("{}.height", self.road), format!("{}.height_rate", self.road));
         vec![
-            InputDeclared { name: height, unit: "m", about: "height of the road, upward", nominal: 0.01, rate: Some(rate.clone()) },
-            InputDeclared { name: rate, unit: "m/s", about: "rate of the height of the road", nominal: 0.1, rate: None },
+            InputDeclared {
+                name: height,
+                unit: "m",
+                about: "height of the road, upward",
+                nominal: 0.01,
+                rate: Some(rate.clone()),
+                default: 0.0,
+            },
+            InputDeclared { name: rate, unit: "m/s", about: "rate of the height of the road", nominal: 0.1, rate: None, default: 0.0 },
         ]
     }
 

@@ -46,6 +46,12 @@ pub trait Projection: Plant {
     /// # Errors
     /// Rows that stay violated.
     fn project(&mut self, time: f64, y: &mut [f64], u: &[f64], held: &[bool]) -> Result<(), ProjectionError>;
+
+    /// How independent the constraints are at a point: 0 in a singular position, where one of them follows from the others and more motions
+    /// are possible than elsewhere. Only its change along a motion has a meaning. 1 without constraints.
+    fn independence(&mut self, _time: f64, _y: &[f64], _u: &[f64]) -> f64 {
+        1.0
+    }
 }
 
 /// The explicit form, for methods that cannot take a residual.

@@ -3,9 +3,12 @@
 use super::SharedPlant;
 use super::diagnosis::off;
 use super::inputs::Inputs;
-use super::trajectory::{Drift, LimitMet, Trajectory, Worst};
+use super::trajectory::{Drift, LimitMet, NearSingular, Trajectory, Worst};
 use crate::{Variable, Variables};
 use problem::{At, EquationKind, EvalError, Flow};
+
+/// Share of their independence at the start below which constraints are near a singular position.
+const NEAR: f64 = 0.1;
 
 /// Largest violation of one family of rows so far.
 struct Family {
@@ -32,6 +35,8 @@ pub(super) struct Recorder<'a, 'p> {
     families: [Family; 2],
     nominal: Vec<f64>,
     limits: Vec<Watched>,
+    /// Independence of the constraints at the first sample, and the least so far with its time.
+    independence: Option<(f64, f64, f64)>,
     u: Vec<f64>,
     residual: Vec<f64>,
     outputs: Vec<f64>,
@@ -59,6 +64,7 @@ impl<'a, 'p> Recorder<'a, 'p> {
             families: [family(EquationKind::Constraint), family(EquationKind::VelocityConstraint)],
             nominal: p.equations().iter().map(|e| e.nominal).collect(),
             limits: watched.collect(),
+            independence: None,
             u: vec![0.0; p.inputs().len()],
             residual: vec![0.0; p.equations().len()],
             outputs: vec![0.0; p.outputs().len()],
@@ -85,6 +91,11 @@ impl<'a, 'p> Recorder<'a, 'p> {
         if let Err(e) = evaluated {
             self.failure = Some(e);
             return Flow::Stop;
+        }
+        if self.families.iter().any(|family| !family.rows.is_empty()) {
+            let now = self.plant.borrow_mut().independence(time, y, &self.u);
+            let (first, least, when) = self.independence.unwrap_or((now, now, time));
+            self.independence = Some(if now < least { (first, now, time) } else { (first, least, when) });
         }
         let plant = self.plant.borrow();
         for watched in self.limits.iter_mut().filter(|w| w.met.is_none()) {
@@ -115,7 +126,7 @@ impl<'a, 'p> Recorder<'a, 'p> {
     }
 
     /// Everything recorded, in names.
-    pub(super) fn finish(self) -> (Trajectory, Drift, Vec<LimitMet>) {
+    pub(super) fn finish(self) -> (Trajectory, Drift, Vec<LimitMet>, Option<NearSingular>) {
         let plant = self.plant.borrow();
         let worst = |family: &Family| family.worst.map(|(row, by, time)| Worst { off: off(&plant.equations()[row], by), time });
         let [position, velocity] = &self.families;
@@ -124,6 +135,8 @@ impl<'a, 'p> Recorder<'a, 'p> {
             let (limit, (value, time)) = (&plant.limits()[watched.limit], watched.met?);
             Some(LimitMet { name: limit.name.to_string(), signal: limit.signal.clone(), value, threshold: limit.threshold, time })
         });
-        (self.trajectory, drift, met.collect())
+        let near = self.independence.filter(|(first, least, _)| *least < NEAR * first);
+        let near = near.map(|(first, least, time)| NearSingular { independence: least / first, time });
+        (self.trajectory, drift, met.collect(), near)
     }
 }

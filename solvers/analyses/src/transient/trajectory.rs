@@ -60,6 +60,16 @@ pub struct Drift {
     pub velocity: Option<Worst>,
 }
 
+/// The sample nearest to a singular position, where constraints depend on each other: what comes after it may be another branch of the
+/// motion, and finer tolerances need not agree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearSingular {
+    /// Independence of the constraints there, as a share of that at the start.
+    pub independence: f64,
+    /// When, s.
+    pub time: f64,
+}
+
 /// A declared limit that was violated at some sample; the simulation went on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitMet {
