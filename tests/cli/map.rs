@@ -33,3 +33,10 @@ fn figures_are_written_as_svg_and_png() {
         assert!(bytes.starts_with(magic), "{name} begins with {:?}", &bytes[..16.min(bytes.len())]);
     }
 }
+
+#[test]
+fn the_gear_counts_in_maps_too() {
+    let answer = fastbike(&["map", "gsxr1000", "--speed", "20,30", "--lean", "0,0.2", "--gear", "9", "--show", "steer.torque"]);
+    assert_eq!(answer.status, 2, "{}", answer.stdout);
+    assert!(answer.stderr.contains("gear"), "{}", answer.stderr);
+}

@@ -32,7 +32,8 @@ fn command(command: Command) -> Command {
 }
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
-    let arguments: Arguments = read(matches)?;
+    let mut arguments: Arguments = read(matches)?;
+    arguments.model.set.extend(arguments.trim.gear_override());
     let request = arguments.trim.request()?;
     arguments.output.check()?;
     if request.swept() != 2 {
