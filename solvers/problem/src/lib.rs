@@ -6,6 +6,7 @@
 //! Everything that enters or leaves a plant is a named [`Signal`] with unit and one sentence.
 
 mod algebraic;
+mod controller;
 mod error;
 mod integration;
 mod matrix;
@@ -16,6 +17,7 @@ mod plant;
 mod signal;
 
 pub use algebraic::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound};
+pub use controller::{Answer, AnswerAlong, Controller};
 pub use error::EvalError;
 pub use integration::{
     AlgebraicErrors, DaeMethod, DaeProblem, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink,
