@@ -15,6 +15,7 @@ pub mod plan;
 pub mod plot;
 pub mod report;
 pub mod results;
+pub mod rider;
 pub mod small_motions;
 pub mod steady;
 

@@ -1,7 +1,7 @@
 //! Analyses as services: they know signals and problem traits, never an engine and never a trade.
 //!
 //! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them, [`mod@eigen`] their eigenvalues, which
-//! [`modes`] names and follows along a sweep; [`transient`] follows a motion over time; [`expression`] is the small language in which
+//! [`modes`] names and follows along a sweep; [`regulator`] designs feedback from them; [`transient`] follows a motion over time; [`expression`] is the small language in which
 //! conditions are written.
 
 #![allow(non_snake_case)]
@@ -10,6 +10,7 @@ pub mod eigen;
 pub mod expression;
 pub mod linearize;
 pub mod modes;
+pub mod regulator;
 pub mod transient;
 pub mod trim;
 pub mod variable;

@@ -1,0 +1,314 @@
+//! Makes the virtual rider of a maneuver: steady states and linear models over speed and lateral acceleration, a regulator at each, a table of all.
+//!
+//! The order is: assemble, trim, linearize, gains, rider. Nothing is tuned by hand; what the user may choose is what counts as much as what.
+
+use crate::Failure;
+use crate::output::Point;
+use crate::plan::{Prescribed, Request, Turn, base_name};
+use crate::small_motions::SmallMotions;
+use crate::steady;
+use analyses::regulator::{Course as Line, Design, Regulator, follow};
+use analyses::LinearModel;
+use mbody::description::finding::Finding;
+use mbody::dynamics::{System, TreePlant};
+use motorcycle::maneuver::{Course, RiderDescription};
+use motorcycle::rider::schedule::Table;
+use motorcycle::rider::{Reins, Rider, RowLayout, Settings};
+use problem::Dae;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Offset (m), heading error (rad) and steering torque (N m) that count alike, where the user does not say otherwise: theory manual 10.4.
+const USUAL: (f64, f64, f64) = (0.3, 0.05, 20.0);
+/// Greatest steering torque of a rider, N m.
+const GREATEST_TORQUE: f64 = 150.0;
+/// Damping ratio of the muscles: theory manual 10.6.
+const MUSCLE_DAMPING: f64 = 0.7;
+/// Time between two samples of the path ahead, s.
+const INTERVAL: f64 = 0.1;
+/// Previews that are tried, s, and the share of the kernel at which one is long enough.
+const PREVIEWS: [f64; 4] = [2.0, 3.0, 4.5, 6.0];
+const FAR_ENOUGH: f64 = 0.01;
+/// Lead of the schedule before the path, s: about the time in which a motorcycle leans.
+const LEAD: f64 = 0.3;
+/// Bandwidth of the speed loop, rad/s, critically damped.
+const SPEED_BANDWIDTH: f64 = 0.7;
+/// Slowest speed of the table, m/s.
+const SLOWEST: f64 = 2.0;
+/// Accelerations at which driving and braking are measured, m/s².
+const PROBES: (f64, f64) = (0.5, -3.0);
+/// Largest distance of two nodes: share of the speed, and lateral acceleration, m/s².
+const SPEED_STEP: f64 = 0.2;
+const LATERAL_STEP: f64 = 2.0;
+
+/// One node of the table: what it stands on and how well it holds.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Lateral acceleration, m/s², positive to the left.
+    pub lateral_acceleration: f64,
+    /// Roll of the steady state, rad.
+    pub roll: f64,
+    /// Feedback, preview, closed loop and margins.
+    pub regulator: Regulator,
+}
+
+/// A rider and what it was made from.
+pub struct Designed {
+    /// The rider.
+    pub rider: Rider,
+    /// The nodes of its table.
+    pub nodes: Vec<Node>,
+    /// What is fed back.
+    pub feedback: Vec<String>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// What a rider is made for.
+#[derive(Debug)]
+pub struct Task<'a> {
+    /// The vehicle.
+    pub system: &'a Arc<System>,
+    /// Backend of the steady states.
+    pub backend: &'a str,
+    /// What counts as much as what, and human limits.
+    pub wishes: &'a RiderDescription,
+    /// Share of the front brake where it cannot be found from the loads.
+    pub front_brake_share: f64,
+}
+
+/// Speeds from the slowest to the fastest, close enough to each other.
+fn speeds((low, high): (f64, f64)) -> Vec<f64> {
+    let (low, high) = ((0.85 * low).max(SLOWEST), (1.15 * high).max(SLOWEST * 1.5));
+    let count = ((high / low).ln() / SPEED_STEP.ln_1p()).ceil().max(2.0) as usize;
+    (0..=count).map(|k| low * (high / low).powf(k as f64 / count as f64)).collect()
+}
+
+/// Lateral accelerations to both sides, zero among them.
+fn laterals(greatest: f64) -> Vec<f64> {
+    let greatest = greatest.max(0.5);
+    let half = (greatest / LATERAL_STEP).ceil().max(1.0) as i32;
+    (-half..=half).map(|k| greatest * f64::from(k) / f64::from(half)).collect()
+}
+
+impl Task<'_> {
+    fn steady(&self, speeds: &[f64], laterals: &[f64], acceleration: Option<f64>) -> Result<steady::Steady, Failure> {
+        let prescribed = |name, unit, values: Vec<f64>| Prescribed { name, unit, values };
+        let request = Request {
+            speed: Some(prescribed("speed", "m/s", speeds.to_vec())),
+            turn: Some((Turn::LateralAcceleration, prescribed("lateral_acceleration", "m/s²", laterals.to_vec()))),
+            acceleration: acceleration.map(|a| prescribed("acceleration", "m/s²", vec![a])),
+            front_brake_share: self.front_brake_share,
+            ..Request::default()
+        };
+        steady::run(&request, self.system, self.backend, "steady states of the rider")
+    }
+
+    /// Steady states on a grid whose every point is reached: lateral accelerations that are too much for some speed are left out.
+    fn grid(&self, speeds: &[f64], greatest: f64) -> Result<(Vec<f64>, steady::Steady), Failure> {
+        let mut wanted = greatest;
+        loop {
+            let laterals = laterals(wanted);
+            let found = self.steady(speeds, &laterals, None)?;
+            let Some(missed) = found.points.iter().find(|p| p.values.is_empty()) else { return Ok((laterals, found)) };
+            if wanted < 1.0 {
+                let message = format!(
+                    "there is no steady state at {:.1} m/s and a lateral acceleration of {:.1} m/s²: {}",
+                    missed.given[0],
+                    missed.given[1],
+                    missed.ending.name()
+                );
+                return Err(Finding::error("no_steady_state", message).with_hint("see `fastbike trim` at this speed").into());
+            }
+            wanted *= 0.8;
+        }
+    }
+
+    /// Makes the rider of a course.
+    ///
+    /// # Errors
+    /// The vehicle cannot be steered, has no steady states there, or no feedback stabilizes it.
+    pub fn design(&self, course: Course) -> Result<Designed, Failure> {
+        let plant = TreePlant::new(self.system.clone());
+        let Some(base) = base_name(&plant) else {
+            return Err(Finding::error("no_vehicle_base", "this model has no vehicle base, so nobody can ride it").into());
+        };
+        let reins = reins(&plant, &base)?;
+        let speeds = speeds(course.speed.range());
+        let greatest = 1.15 * course.speed.greatest_lateral(&course.path) + 0.5;
+        let (laterals, steady) = self.grid(&speeds, greatest)?;
+        let mut warnings = Vec::new();
+        let reached = laterals.last().copied().unwrap_or_default();
+        if reached < greatest - 1e-9 {
+            warnings.push(format!(
+                "the path asks for up to {:.1} m/s² to the side; steady states end at {reached:.1} m/s², whose gains hold beyond",
+                (greatest - 0.5) / 1.15
+            ));
+        }
+        let models = self.linear(&steady)?;
+        let held: Vec<String> = models[0].states.iter().map(|s| s.signal.name.to_string()).filter(|n| is_held(n, &base)).collect();
+        let design = |preview: f64| Design {
+            input: reins.commands[0].clone(),
+            effort: self.wishes.torque.map_or(USUAL.2, |q| q.si()),
+            deviations: Vec::new(),
+            path: (self.wishes.offset.map_or(USUAL.0, |q| q.si()), self.wishes.heading.map_or(USUAL.1, |q| q.si())),
+            held: held.clone(),
+            preview: (preview, (preview / INTERVAL).round() as usize),
+        };
+        let regulators = self.regulators(&steady, &models, &base, &plant, &design)?;
+        let feedback = regulators[0].states.clone();
+        let layout = RowLayout { feedback: feedback.len(), preview: regulators[0].preview.weights.len() };
+        let per_speed = if reins.commands.len() == 4 { self.driving(&speeds, &steady, laterals.len())? } else { Driving::none(&speeds) };
+        let value = |point: &Point, name: &str| steady.signals.iter().position(|s| s.name == *name).map_or(0.0, |k| point.value(k));
+        let rows: Vec<Vec<f64>> = (steady.points.iter().zip(&regulators).enumerate())
+            .map(|(k, (point, regulator))| {
+                let mut row = vec![0.0; layout.width()];
+                for (i, name) in feedback.iter().enumerate() {
+                    (row[i], row[layout.gain(i)]) = (value(point, name), regulator.gains[i]);
+                }
+                (row[layout.path_gain(0)], row[layout.path_gain(1)]) = (regulator.path_gains[0], regulator.path_gains[1]);
+                row[layout.torque()] = value(point, &reins.commands[0]);
+                row[layout.drive()] = reins.commands.get(1).map_or(0.0, |drive| value(point, drive));
+                row[layout.torque_per_acceleration()] = per_speed.torque_per_acceleration[k / laterals.len()];
+                row[layout.slip()] = value(point, &reins.base[4]).atan2(value(point, &reins.base[3]));
+                regulator.preview.weights.iter().enumerate().for_each(|(i, w)| row[layout.preview(i)] = *w);
+                row
+            })
+            .collect();
+        let roll = format!("{base}.roll");
+        let nodes = steady.points.iter().zip(&regulators).map(|(p, r)| Node {
+            speed: p.given[0],
+            lateral_acceleration: p.given[1],
+            roll: value(p, &roll),
+            regulator: r.clone(),
+        });
+        let nodes = nodes.collect();
+        let settings = Settings {
+            lead: LEAD,
+            interval: regulators[0].preview.interval,
+            greatest_torque: self.wishes.greatest_torque.map_or(GREATEST_TORQUE, |q| q.si()),
+            greatest_drive: f64::INFINITY,
+            speed_gain: 2.0 * SPEED_BANDWIDTH,
+            speed_integral_gain: SPEED_BANDWIDTH * SPEED_BANDWIDTH,
+            brake_per_drive: per_speed.brake_per_drive,
+            front_share: per_speed.front_share,
+            delay: self.wishes.delay.map(|q| q.si()),
+            lag: self.wishes.muscles.map(|q| (q.si(), MUSCLE_DAMPING)),
+        };
+        let broken = || Finding::error("no_rider", "the table of the rider does not go together");
+        let table = Table::new(speeds, laterals, &rows).ok_or_else(broken)?;
+        let reins = Reins { feedback: feedback.clone(), ..reins };
+        let rider = Rider::new(reins, settings, layout, table, course).ok_or_else(broken)?;
+        Ok(Designed { rider, nodes, feedback, warnings })
+    }
+
+    /// Linear models at all points, with the same states.
+    fn linear(&self, steady: &steady::Steady) -> Result<Vec<LinearModel>, Failure> {
+        let request = Request::default();
+        let motions = SmallMotions { request: &request, system: self.system, backend: self.backend, residual_tolerance: 1e-6 };
+        let models: Result<Vec<LinearModel>, String> = motions.linear_models(steady).points.into_iter().collect();
+        models.map_err(|why| Finding::error("no_linear_model", format!("the rider cannot be made: {why}")).into())
+    }
+
+    /// A regulator at every point, all with one preview that is long enough.
+    fn regulators(
+        &self,
+        steady: &steady::Steady,
+        models: &[LinearModel],
+        base: &str,
+        plant: &TreePlant,
+        design: &dyn Fn(f64) -> Design,
+    ) -> Result<Vec<Regulator>, Failure> {
+        let at = |name: String| plant.unknowns().iter().position(|u| u.signal.name == name).unwrap_or_default();
+        let (forward, lateral, yaw) = (at(format!("{base}.forward_speed")), at(format!("{base}.lateral_speed")), at(format!("{base}.yaw_rate")));
+        let previews: &[f64] = match &self.wishes.preview {
+            Some(wanted) => &[wanted.si()],
+            None => &PREVIEWS,
+        };
+        let mut found = Vec::new();
+        for &preview in previews {
+            let design = design(preview);
+            let regulators: Result<Vec<Regulator>, Failure> = (steady.points.par_iter().zip(models))
+                .map(|(point, model)| {
+                    let speed = (point.value(forward), point.value(lateral));
+                    let line = Line { lateral_speed: lateral, yaw_rate: yaw, speed, curvature: point.value(yaw) / speed.0.hypot(speed.1) };
+                    follow(model, &line, &design).map_err(|why| {
+                        let message = format!("no rider at {:.1} m/s and {:.1} m/s² to the side: {why}", point.given[0], point.given[1]);
+                        Finding::error("no_rider", message).into()
+                    })
+                })
+                .collect();
+            found = regulators?;
+            if found.iter().all(|r| r.preview.tail < FAR_ENOUGH) {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// How the speed answers to drive and brakes, from steady states that accelerate and brake.
+    fn driving(&self, speeds: &[f64], steady: &steady::Steady, laterals: usize) -> Result<Driving, Failure> {
+        let at = |name: &str| steady.signals.iter().position(|s| s.name == *name);
+        let value = |point: &Point, name: &str| at(name).map_or(f64::NAN, |k| point.value(k));
+        let middle = laterals / 2;
+        let driven = self.steady(speeds, &[0.0], Some(PROBES.0))?;
+        let braked = self.steady(speeds, &[0.0], Some(PROBES.1))?;
+        let mut driving = Driving::none(speeds);
+        let mut shares = Vec::new();
+        for (i, per) in driving.torque_per_acceleration.iter_mut().enumerate() {
+            let (level, faster, slower) = (&steady.points[i * laterals + middle], &driven.points[i], &braked.points[i]);
+            let drive = value(level, "drive.torque");
+            if faster.values.is_empty() || slower.values.is_empty() {
+                let message = format!("at {:.1} m/s the vehicle can neither gain nor lose speed steadily", speeds[i]);
+                return Err(Finding::error("no_steady_state", message).into());
+            }
+            *per = (value(faster, "drive.torque") - drive) / PROBES.0;
+            let brakes = value(slower, "front_brake.torque") + value(slower, "rear_brake.torque");
+            let load = |p: &Point| value(p, "front_tire.normal_force") / (value(p, "front_tire.normal_force") + value(p, "rear_tire.normal_force"));
+            shares.push((brakes / -(drive + *per * PROBES.1), load(level), (load(slower) - load(level)) / -PROBES.1));
+        }
+        let mean = |f: &dyn Fn(&(f64, f64, f64)) -> f64| shares.iter().map(f).sum::<f64>() / shares.len() as f64;
+        driving.brake_per_drive = mean(&|s| s.0);
+        driving.front_share = match mean(&|s| s.1).is_finite() {
+            true => [mean(&|s| s.1), mean(&|s| s.2)],
+            false => [self.front_brake_share, 0.0],
+        };
+        Ok(driving)
+    }
+}
+
+/// How the speed answers to drive and brakes.
+struct Driving {
+    torque_per_acceleration: Vec<f64>,
+    brake_per_drive: f64,
+    front_share: [f64; 2],
+}
+
+impl Driving {
+    fn none(speeds: &[f64]) -> Self {
+        Self { torque_per_acceleration: vec![1.0; speeds.len()], brake_per_drive: 1.0, front_share: [0.5, 0.0] }
+    }
+}
+
+/// States that the speed section holds: the speed itself and the spins of the wheels.
+fn is_held(name: &str, base: &str) -> bool {
+    name == format!("{base}.forward_speed") || name.ends_with("_wheel.spin_rate")
+}
+
+/// What a rider can read and command on this vehicle.
+fn reins(plant: &TreePlant, base: &str) -> Result<Reins, Failure> {
+    let input = |name: &str| plant.inputs().iter().any(|i| i.signal.name == name);
+    if !input("steer.torque") {
+        let finding = Finding::error("missing_input", "this model has no input `steer.torque`, so nobody can steer it");
+        return Err(finding.with_hint("an element `steer: { joint_torque: { joint: steer } }` offers it").into());
+    }
+    let speed = ["drive.torque", "front_brake.torque", "rear_brake.torque"];
+    let mut commands = vec!["steer.torque".to_owned()];
+    if speed.iter().all(|name| input(name)) {
+        commands.extend(speed.map(str::to_owned));
+    }
+    let of_base = ["x", "y", "yaw", "forward_speed", "lateral_speed"].map(|name| format!("{base}.{name}"));
+    Ok(Reins { base: of_base, feedback: Vec::new(), commands })
+}

@@ -1,0 +1,282 @@
+//! Maneuvers: which path, at which speed, with which disturbances, and when it is over.
+//!
+//! A maneuver is a file of its own. Its path is a sequence of sections, each one kind ([`section::KINDS`]); its speed is constant, over time or along the path. Where
+//! nobody rides, the inputs stay at those of the steady state.
+
+mod path;
+pub mod section;
+mod speed;
+
+pub use path::{Layout, Path, Place, Twice};
+pub use section::{SectionDescription, SectionKind};
+pub use speed::Speed;
+
+use mbody::description::document::Document;
+use mbody::description::finding::{Finding, Findings};
+use mbody::description::quantity::dimension::{Length, Speed as SpeedDimension, Time, Torque};
+use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
+use mbody::description::schema::Schema;
+use mbody::scalar::Pchip;
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::f64::consts::PI;
+
+/// Where to ride, how fast, and what disturbs.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// The path.
+    pub path: Path,
+    /// Target speed.
+    pub speed: Speed,
+    /// Torques at the bar beside those of the rider.
+    pub torque_pulses: Vec<Pulse>,
+}
+
+/// `peak sin²(π (t − start)/duration)` while it lasts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    /// Largest value.
+    pub peak: f64,
+    /// Begin, s.
+    pub start: f64,
+    /// Length, s.
+    pub duration: f64,
+}
+
+impl Pulse {
+    /// Value at a time, s.
+    pub fn at(&self, time: f64) -> f64 {
+        let q = (time - self.start) / self.duration;
+        if (0.0..=1.0).contains(&q) { self.peak * (PI * q).sin().powi(2) } else { 0.0 }
+    }
+}
+
+impl Course {
+    /// Sum of the pulses at a time, N m.
+    pub fn pulses(&self, time: f64) -> f64 {
+        self.torque_pulses.iter().map(|p| p.at(time)).sum()
+    }
+
+    /// Time that the path takes at its target speed, s.
+    pub fn duration(&self) -> f64 {
+        // steps of the arc length at the speed of their beginning
+        let step = (self.path.length() / 2000.0).max(1e-3);
+        let (mut s, mut time) = (0.0, 0.0);
+        while s < self.path.length() && time < 3600.0 {
+            let speed = self.speed.at(time, s, 0.0).0.max(0.1);
+            time += step / speed;
+            s += step;
+        }
+        time
+    }
+}
+
+/// Who rides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Control {
+    /// The virtual rider, with preview.
+    #[default]
+    Rider,
+    /// Nobody: the inputs stay at those of the steady state.
+    None,
+}
+
+/// A maneuver that was read.
+#[derive(Clone, Debug)]
+pub struct Maneuver {
+    /// Name for headings.
+    pub name: String,
+    /// A sentence or two.
+    pub about: String,
+    /// Path, speed and disturbances.
+    pub course: Course,
+    /// Who rides.
+    pub control: Control,
+    /// How the rider is made.
+    pub rider: RiderDescription,
+    /// When it is over, beside the end of the path: `SIGNAL>VALUE`.
+    pub until: Vec<String>,
+    /// Longest time, s; none: what the path takes, and a little more.
+    pub duration: Option<f64>,
+}
+
+/// A torque at the bar.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PulseDescription {
+    /// Largest torque, positive to the left.
+    peak: Quantity<Torque>,
+    /// When it begins.
+    start: NonNegativeQuantity<Time>,
+    /// How long it lasts.
+    duration: PositiveQuantity<Time>,
+}
+
+/// Rider of a maneuver: what counts as much as what, and human limits.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RiderDescription {
+    /// Offset from the path that counts as much as the other values here; 0.3 m where left out.
+    pub offset: Option<PositiveQuantity<Length>>,
+    /// Heading error that counts as much; 0.05 rad where left out.
+    pub heading: Option<PositiveQuantity<mbody::description::quantity::dimension::Angle>>,
+    /// Steering torque that counts as much; 20 N m where left out.
+    pub torque: Option<PositiveQuantity<Torque>>,
+    /// Greatest steering torque; 150 N m where left out.
+    pub greatest_torque: Option<PositiveQuantity<Torque>>,
+    /// How far the rider looks ahead; as far as it matters where left out.
+    pub preview: Option<PositiveQuantity<Time>>,
+    /// Reaction time; none where left out.
+    pub delay: Option<PositiveQuantity<Time>>,
+    /// Natural frequency of the muscles; they follow at once where left out.
+    pub muscles: Option<PositiveQuantity<mbody::description::quantity::dimension::AngularSpeed>>,
+}
+
+/// The written form of a maneuver.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ManeuverDescription {
+    /// Version of this form: 1.
+    #[schemars(range(min = 1, max = 1))]
+    #[expect(dead_code, reason = "the schema judges it")]
+    maneuver: u32,
+    /// Name for headings.
+    name: String,
+    /// A sentence or two.
+    about: Option<String>,
+    /// Speed at the start, and the target speed throughout where nothing else is said.
+    speed: NonNegativeQuantity<SpeedDimension>,
+    /// Target speed over time: points of time and speed, joined smoothly.
+    speed_over_time: Option<Vec<(NonNegativeQuantity<Time>, NonNegativeQuantity<SpeedDimension>)>>,
+    /// Target speed along the path: points of arc length and speed, joined smoothly.
+    speed_along_path: Option<Vec<(NonNegativeQuantity<Length>, NonNegativeQuantity<SpeedDimension>)>>,
+    /// The path: sections one after the other, each one kind with its parameters.
+    path: Vec<Value>,
+    /// Torques at the bar beside those of the rider.
+    torque_pulses: Option<Vec<PulseDescription>>,
+    /// Who rides: `rider` (where left out) or `none`.
+    #[serde(default)]
+    control: Control,
+    /// How the rider is made.
+    #[serde(default)]
+    rider: RiderDescription,
+    /// When it is over, beside the end of the path: conditions `SIGNAL>VALUE` or `SIGNAL<VALUE`.
+    #[serde(default)]
+    until: Vec<String>,
+    /// Longest time.
+    duration: Option<PositiveQuantity<Time>>,
+}
+
+/// The JSON Schema (draft 2020-12) of maneuvers.
+pub fn schema() -> Value {
+    let mut generator = SchemaSettings::draft2020_12().into_generator();
+    let sections: Vec<Value> = section::KINDS
+        .iter()
+        .map(|k| {
+            json!({
+                "type": "object",
+                "description": k.about,
+                "properties": { k.name: (k.schema)(&mut generator) },
+                "required": [k.name],
+                "additionalProperties": false
+            })
+        })
+        .collect();
+    let mut root = generator.root_schema_for::<ManeuverDescription>().to_value();
+    root["title"] = json!("FastBike maneuver");
+    root["properties"]["path"]["items"] = json!({ "oneOf": sections });
+    root["properties"]["path"]["minItems"] = json!(1);
+    root
+}
+
+/// Reads a maneuver; `speed` (m/s) replaces its speed where it is given.
+///
+/// # Errors
+/// Everything that is wrong, each at its line.
+pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &mut Findings) -> Option<Maneuver> {
+    let mut document = match Document::parse(file, text) {
+        Ok(document) => document,
+        Err(errors) => {
+            findings.extend(errors);
+            return None;
+        }
+    };
+    if document.value().is_null() {
+        let finding = Finding::error("empty_file", "the maneuver is empty").in_file(file);
+        findings.push(finding.with_hint("`maneuver`, `name`, `speed` and `path` are needed at least"));
+        return None;
+    }
+    for (path, value) in overrides {
+        if let Err(errors) = document.set(path, value) {
+            findings.extend(errors);
+        }
+    }
+    match Schema::new(&schema()) {
+        Ok(schema) => findings.extend(schema.check(&document)),
+        Err(errors) => findings.extend(errors),
+    }
+    if findings.has_errors() {
+        return None;
+    }
+    let written: ManeuverDescription = match document.read("") {
+        Ok(written) => written,
+        Err(errors) => {
+            findings.extend(errors);
+            return None;
+        }
+    };
+    let mut layout = Layout::default();
+    for (k, entry) in written.path.iter().enumerate() {
+        let Some((name, value)) = entry.as_object().and_then(|o| o.iter().next()) else { continue };
+        let Some(kind) = section::KINDS.iter().find(|k| k.name == name) else { continue };
+        if let Err(finding) = (kind.lay)(value, &mut layout) {
+            let below = if finding.path.is_empty() { String::new() } else { format!(".{}", finding.path) };
+            let path = format!("path.{k}.{name}{below}");
+            findings.push(document.locate(finding.at_path(path)));
+        }
+    }
+    let speed = match target(&written) {
+        Ok(speed) => Some(speed),
+        Err((key, why)) => {
+            findings.push(document.locate(Finding::error("bad_curve", why).at_path(key)));
+            None
+        }
+    };
+    if layout.length() <= 0.0 && !findings.has_errors() {
+        findings.push(document.locate(Finding::error("out_of_range", "the path has no length").at_path("path")));
+    }
+    if findings.has_errors() {
+        return None;
+    }
+    let pulse = |p: &PulseDescription| Pulse { peak: p.peak.si(), start: p.start.si(), duration: p.duration.si() };
+    let torque_pulses = written.torque_pulses.iter().flatten().map(pulse).collect();
+    Some(Maneuver {
+        name: written.name,
+        about: written.about.unwrap_or_default(),
+        course: Course { path: layout.path(), speed: speed?, torque_pulses },
+        control: written.control,
+        rider: written.rider,
+        until: written.until,
+        duration: written.duration.map(|d| d.si()),
+    })
+}
+
+/// The target speed; where it is not a curve, the key and why.
+fn target(written: &ManeuverDescription) -> Result<Speed, (&'static str, String)> {
+    let curve = |key: &'static str, (x, y): (Vec<f64>, Vec<f64>)| Pchip::new(&x, &y).map_err(|e| (key, e.to_string()));
+    match (&written.speed_over_time, &written.speed_along_path) {
+        (None, None) => Ok(Speed::Constant(written.speed.si())),
+        (Some(points), None) => {
+            curve("speed_over_time", points.iter().map(|(t, v)| (t.si(), v.si())).unzip()).map(Speed::OverTime)
+        }
+        (None, Some(points)) => {
+            curve("speed_along_path", points.iter().map(|(s, v)| (s.si(), v.si())).unzip()).map(Speed::AlongPath)
+        }
+        (Some(_), Some(_)) => {
+            Err(("speed_along_path", "the target speed is given twice, over time and along the path".to_owned()))
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Straight on.
+
+use super::{Layout, SectionDescription};
+use mbody::description::finding::Finding;
+use mbody::description::quantity::{NonNegativeQuantity, dimension::Length};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Straight on.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Straight {
+    /// Length of the section.
+    length: NonNegativeQuantity<Length>,
+}
+
+impl SectionDescription for Straight {
+    const KIND: &'static str = "straight";
+    const ABOUT: &'static str = "straight on";
+    const EXAMPLE: &'static str = "{ length: 50 m }";
+    fn lay(self, path: &mut Layout) -> Result<(), Finding> {
+        path.straight(self.length.si());
+        Ok(())
+    }
+}

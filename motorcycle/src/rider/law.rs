@@ -1,0 +1,166 @@
+//! The laws of the virtual rider, generic over the scalar.
+//!
+//! **Where it is.** Arc length s on the path, a state: `ṡ = (V_x cos ψ_e − V_y sin ψ_e)/(1 − κ e) + k_s e_t`, with the offset e (positive to the left of the
+//! path), the heading error `ψ_e = ψ − ψ_p(s)` and the distance e_t by which the base point is ahead of s along the path.
+//!
+//! **Steering.** `τ = τ₀ − K (x − x₀) − K_e e − K_ψ (ψ_e + β₀) + Σ wᵢ (κ(s + V tᵢ) − κ₀)`: steady state x₀, τ₀ with its slip angle `β₀ = atan(V_y/V_x)`, gains K and
+//! weights w all of the present speed and of the lateral acceleration `a₀ = V² κ(s + V t₀)`, `κ₀ = a₀/V²`. The torque is bounded smoothly by
+//! `τ/(1 + (τ/τ_max)⁸)^⅛`, then delayed (Padé, second order) and lagged by the muscles where that is asked for.
+//!
+//! **Speed.** Demanded acceleration `b = b_t + k_v (V_t − V) + k_i ∫(V_t − V) dt` with the target V_t of the maneuver and its rate b_t; wheel torque
+//! `T = T₀ + M b`. The engine takes what is positive, the brakes what is negative, with the front share `p = p₀ − p₁ b`; near zero both change over by a smooth ramp.
+//!
+//! Symbols: V_x, V_y speed of the base point, m/s; κ curvature, 1/m, positive to the left; τ steering torque, N m; M wheel torque per acceleration, N s²;
+//! t₀ lead of the schedule, s.
+//!
+//! Source: theory manual 10.1 (arc length as a state), 10.2, 10.4, 10.6; R. S. Sharp, Proc. IMechE C 221 (2007) 337–346 (preview). Range: speeds within the
+//! table of the schedule; beyond it the gains of its edge hold. Offsets below the radius of the path.
+
+use super::Rider;
+use super::schedule::Row;
+use mbody::scalar::Real;
+use mbody::scalar::smooth::{ramp, sabs};
+
+/// Rate at which the arc length follows the base point, 1/s.
+const CATCH_UP: f64 = 5.0;
+
+/// Wheel torque over which drive and brakes change over, N m.
+const CHANGE_OVER: f64 = 10.0;
+
+/// Speed below which the rider no longer divides by it, m/s.
+const SLOW: f64 = 0.5;
+
+/// Most commands, states and outputs.
+pub(super) const MOST: usize = 8;
+
+/// What the laws give.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Reply<S> {
+    pub commands: [S; MOST],
+    pub rates: [S; MOST],
+    pub outputs: [S; MOST],
+}
+
+/// A value bounded smoothly: `x/(1 + (x/bound)⁸)^⅛`.
+fn bounded<S: Real>(x: S, bound: f64) -> S {
+    let u = x / bound;
+    // far beyond the bound the power would overflow
+    if u.value().abs() > 1e6 {
+        return S::from_f64(bound * x.sign());
+    }
+    x / (u.powi(8) + 1.0).powf(0.125)
+}
+
+impl Rider {
+    /// Speed and lateral acceleration for which the schedule is read.
+    pub(super) fn scheduled<S: Real>(&self, z: &[S], x: &[S]) -> (S, S) {
+        let V = sabs(z[3], SLOW);
+        let (s, [low, high]) = (x[0], self.acceleration_range());
+        let a = V * V * self.course.path.curvature(s + V * self.settings.lead);
+        // the edges of the table are approached, not met
+        let middle = 0.5 * (low + high);
+        (V, bounded(a - middle, 0.5 * (high - low)) + middle)
+    }
+
+    /// Commands, rates of the states and outputs. z: x, y, heading, forward and lateral speed, then what is fed back; `row` is that of [`Rider::scheduled`].
+    pub(super) fn law<S: Real>(&self, time: f64, z: &[S], x: &[S], row: &Row, at: (S, S)) -> Reply<S> {
+        let (V, a) = at;
+        let mut reply = Reply::default();
+        // where it is on the path
+        let s = x[0];
+        let place = self.course.path.at(s);
+        let (sine, cosine) = place.heading.sin_cos();
+        let (dx, dy) = (z[0] - place.x, z[1] - place.y);
+        let (ahead, offset) = (cosine * dx + sine * dy, cosine * dy - sine * dx);
+        let error = z[2] - place.heading;
+        let lateral_speed = z[4];
+        let (se, ce) = error.sin_cos();
+        let along = (z[3] * ce - lateral_speed * se) / (-(place.curvature * offset) + 1.0);
+        reply.rates[0] = along + ahead * CATCH_UP;
+        // steering
+        let n = self.layout.feedback;
+        let entry = |k: usize| row.entry(k, at);
+        let mut torque = entry(self.layout.torque());
+        for k in 0..n {
+            torque -= entry(self.layout.gain(k)) * (z[5 + k] - entry(k));
+        }
+        torque -= entry(self.layout.path_gain(0)) * offset;
+        torque -= entry(self.layout.path_gain(1)) * (error + entry(self.layout.slip()));
+        let present = a / (V * V);
+        for k in 0..self.layout.preview {
+            let seen = self.course.path.curvature(s + V * (k as f64 * self.settings.interval));
+            torque += entry(self.layout.preview(k)) * (seen - present);
+        }
+        let torque = bounded(torque, self.settings.greatest_torque);
+        let (steered, next) = self.human(torque, &x[self.human_states()..], &mut reply.rates);
+        reply.commands[0] = steered + self.course.pulses(time);
+        debug_assert!(next <= MOST);
+        // speed
+        let (target, wanted) = self.course.speed.at(time, s, along);
+        if let Some(integral) = self.speed_state() {
+            let (lag, sum) = (target - z[3], x[integral]);
+            let demanded = wanted + lag * self.settings.speed_gain + sum * self.settings.speed_integral_gain;
+            let per = entry(self.layout.torque_per_acceleration());
+            let whole = entry(self.layout.drive()) + per * demanded;
+            let driven = ramp(whole + 0.5 * CHANGE_OVER, CHANGE_OVER);
+            let braked = ramp(-whole + 0.5 * CHANGE_OVER, CHANGE_OVER) * self.settings.brake_per_drive;
+            // what the engine cannot give is not summed up
+            let driven = bounded_above(driven, self.settings.greatest_drive);
+            let missing = whole - driven - CHANGE_OVER;
+            let share = -demanded * self.settings.front_share[1] + self.settings.front_share[0];
+            let share = clamped(share);
+            reply.rates[integral] = lag / (ramp(missing / per, 1.0) + 1.0);
+            reply.commands[1] = driven;
+            reply.commands[2] = braked * share;
+            reply.commands[3] = braked * (-share + 1.0);
+        }
+        reply.outputs = [offset, error, place.curvature, target, place.x, place.y, a, S::zero()];
+        reply
+    }
+
+    /// Delay and lag of a human; returns the torque at the bar and the first state after theirs.
+    fn human<S: Real>(&self, torque: S, x: &[S], rates: &mut [S; MOST]) -> (S, usize) {
+        let (mut out, mut k, first) = (torque, 0, self.human_states());
+        if let Some(delay) = self.settings.delay {
+            // (s² − b s + a)/(s² + b s + a) with a = 12/T², b = 6/T
+            let (a, b) = (12.0 / (delay * delay), 6.0 / delay);
+            rates[first + k] = x[k + 1];
+            rates[first + k + 1] = out - x[k] * a - x[k + 1] * b;
+            out -= x[k + 1] * (2.0 * b);
+            k += 2;
+        }
+        if let Some((frequency, damping)) = self.settings.lag {
+            rates[first + k] = x[k + 1];
+            rates[first + k + 1] = (out - x[k]) * (frequency * frequency) - x[k + 1] * (2.0 * damping * frequency);
+            out = x[k];
+            k += 2;
+        }
+        (out, first + k)
+    }
+}
+
+/// A positive value bounded from above.
+fn bounded_above<S: Real>(x: S, bound: f64) -> S {
+    if bound.is_finite() { bounded(x, bound) } else { x }
+}
+
+/// A share between 0 and 1, with smooth corners.
+fn clamped<S: Real>(share: S) -> S {
+    let below = ramp(share + 0.05, 0.1);
+    -ramp(-below + 1.05, 0.1) + 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_leave_small_values_alone() {
+        assert!((bounded(10.0, 40.0) - 10.0).abs() < 1e-4);
+        assert!((bounded(1e9, 40.0) - 40.0).abs() < 1e-9 && (bounded(-80.0, 40.0) + 40.0).abs() < 0.1);
+        for share in [0.2, 0.5, 0.9] {
+            assert!((clamped(share) - share).abs() < 1e-14);
+        }
+        assert!(clamped(1.5) == 1.0 && clamped(-1.0) == 0.0);
+    }
+}

@@ -1,0 +1,164 @@
+//! Linear-quadratic regulators with preview of a path, and their margins.
+//!
+//! A linear model `E δẋ = A δx + B δu` of something that moves along a path of curvature κ with the speed V is extended by its offset e and its
+//! heading error ψ against the path:
+//!
+//! ```text
+//! ė = δv_y cos β + V δψ,    ψ̇ = δr − κ² V e − κ sin β δv_y,    V² = v_x² + v_y²,  tan β = v_y / v_x
+//! ```
+//!
+//! The best feedback is `u = −K x − K_e e − K_ψ ψ`. Where the curvature ahead is κ + Δκ(s), known in advance, it disturbs `ψ̇` by `−V Δκ`, and the best
+//! input has a part that looks ahead:
+//!
+//! ```text
+//! u += ∫₀ᵀ F(τ) Δκ(s + Vτ) dτ,    F(τ) = V R⁻¹Bᵀ exp(A_cᵀτ) P d
+//! ```
+//!
+//! with A_c of the closed loop, P of the Riccati equation and d the row of ψ. Offset and heading error are those against the path where it is now, so
+//! nothing here is limited to small changes of direction: a U-turn is a history of curvature. The kernel oscillates with the modes of A_c, the curvature does
+//! not: the integral is a weighted sum at equally spaced times, exact for every Δκ that is quadratic between three neighbors ([`Preview`]).
+//!
+//! Source: R. S. Sharp, Proc. IMechE C 221 (2007) 337–346 (preview in discrete time); B. D. O. Anderson, J. B. Moore, *Optimal Control: Linear
+//! Quadratic Methods*, Prentice Hall 1990, chapters 3 and 4 (tracking in continuous time). Held by `solvers/analyses/tests/regulator.rs`.
+
+mod margins;
+mod preview;
+mod riccati;
+
+pub use margins::{Crossing, Margins};
+pub use preview::Preview;
+pub use riccati::{Riccati, RiccatiError, riccati};
+
+use crate::LinearModel;
+use nalgebra::{Complex, DMatrix};
+use thiserror::Error;
+
+/// What moves along which path.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// The unknown of the plant that is the speed across the heading, positive to the left: its index.
+    pub lateral_speed: usize,
+    /// The unknown of the plant that is the rate of the heading.
+    pub yaw_rate: usize,
+    /// Speeds along and across the heading at the point of the model, m/s.
+    pub speed: (f64, f64),
+    /// Curvature of the path there, positive to the left, 1/m.
+    pub curvature: f64,
+}
+
+/// What a regulator should reach.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// The input that it uses.
+    pub input: String,
+    /// An effort of the input that counts as much as one of the deviations below.
+    pub effort: f64,
+    /// Deviations of states that count as much.
+    pub deviations: Vec<(String, f64)>,
+    /// An offset (m) and a heading error (rad) that count as much.
+    pub path: (f64, f64),
+    /// States that are left out: something else holds them.
+    pub held: Vec<String>,
+    /// How long it looks ahead, s, and in how many intervals (even).
+    pub preview: (f64, usize),
+}
+
+/// A regulator for one linear model.
+#[derive(Clone, Debug)]
+pub struct Regulator {
+    /// States that it feeds back.
+    pub states: Vec<String>,
+    /// Gains of the states, in units of the input per unit of the state.
+    pub gains: Vec<f64>,
+    /// Gains of offset and heading error.
+    pub path_gains: [f64; 2],
+    /// How it looks ahead.
+    pub preview: Preview,
+    /// Eigenvalues of the closed loop, states and path, 1/s.
+    pub closed: Vec<Complex<f64>>,
+    /// Margins of the loop, cut at the input.
+    pub margins: Margins,
+}
+
+/// Why there is no regulator.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum RegulatorError {
+    /// A name that the model does not have.
+    #[error("the linear model has no {what} `{name}`")]
+    Unknown {
+        /// State or input.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// The states have no inertia.
+    #[error("no inertia: some states have no rate of their own")]
+    Singular,
+    /// No stabilizing solution.
+    #[error(transparent)]
+    Riccati(#[from] RiccatiError),
+}
+
+/// Designs a regulator that follows a path.
+///
+/// # Errors
+/// Unknown names, a model without inertia, or no stabilizing feedback.
+///
+/// # Cost
+/// One Riccati equation; some 10⁶ operations per 20 states.
+pub fn follow(model: &LinearModel, course: &Course, design: &Design) -> Result<Regulator, RegulatorError> {
+    let (A, B, kept) = extended(model, course, design)?;
+    let n = kept.len();
+    let mut Q = DMatrix::zeros(n + 2, n + 2);
+    for (name, deviation) in &design.deviations {
+        let k = kept.iter().position(|&k| model.states[k].signal.name == *name);
+        let k = k.ok_or_else(|| RegulatorError::Unknown { what: "state", name: name.clone() })?;
+        Q[(k, k)] = deviation.powi(-2);
+    }
+    (Q[(n, n)], Q[(n + 1, n + 1)]) = (design.path.0.powi(-2), design.path.1.powi(-2));
+    let R = DMatrix::from_element(1, 1, design.effort.powi(-2));
+    let nominal: Vec<f64> = kept.iter().map(|&k| model.states[k].nominal).chain([design.path.0, design.path.1]).collect();
+    let solved = riccati((&A, &B), (&Q, &R), &nominal)?;
+    let speed = course.speed.0.hypot(course.speed.1);
+    let bent = solved.P.column(n + 1) * speed;
+    let preview = Preview::of((&solved.closed, &(B.transpose() / R[(0, 0)])), &bent, design.preview);
+    Ok(Regulator {
+        states: kept.iter().map(|&k| model.states[k].signal.name.to_string()).collect(),
+        gains: solved.K.iter().take(n).copied().collect(),
+        path_gains: [solved.K[n], solved.K[n + 1]],
+        preview,
+        closed: solved.closed.complex_eigenvalues().iter().copied().collect(),
+        margins: Margins::of(&A, &B, &solved.K),
+    })
+}
+
+/// `ẋ = A x + B u` of the kept states, then offset and heading error; indices of the kept states.
+fn extended(model: &LinearModel, course: &Course, design: &Design) -> Result<(DMatrix<f64>, DMatrix<f64>, Vec<usize>), RegulatorError> {
+    let unknown = |what, name: &str| RegulatorError::Unknown { what, name: name.to_owned() };
+    let input = model.input(&design.input).ok_or_else(|| unknown("input", &design.input))?;
+    if let Some(name) = design.held.iter().find(|h| model.state(h).is_none()) {
+        return Err(unknown("state", name));
+    }
+    let kept: Vec<usize> = (0..model.states.len()).filter(|&k| !design.held.iter().any(|h| *h == *model.states[k].signal.name)).collect();
+    // a wheel that does not slip leaves the vehicle no lateral speed of its own: it follows from the states
+    let by_kept = |unknown: usize, k: usize| model.unknowns[(unknown, kept[k])];
+    // what holds a state also supplies the effort of its row: row and column go
+    let part = |m: &DMatrix<f64>| DMatrix::from_fn(kept.len(), kept.len(), |i, j| m[(kept[i], kept[j])]);
+    let lu = part(&model.E).lu();
+    let solve = |m: &DMatrix<f64>| lu.solve(m).ok_or(RegulatorError::Singular);
+    let own = solve(&part(&model.A))?;
+    let by_input = solve(&DMatrix::from_fn(kept.len(), 1, |i, _| model.B[(kept[i], input)]))?;
+    let n = kept.len();
+    let (mut A, mut B) = (DMatrix::zeros(n + 2, n + 2), DMatrix::zeros(n + 2, 1));
+    A.view_mut((0, 0), (n, n)).copy_from(&own);
+    B.rows_mut(0, n).copy_from(&by_input);
+    let (forward, lateral) = course.speed;
+    let speed = forward.hypot(lateral);
+    let (sine, cosine) = (lateral / speed, forward / speed);
+    for k in 0..n {
+        let (v, r) = (by_kept(course.lateral_speed, k), by_kept(course.yaw_rate, k));
+        (A[(n, k)], A[(n + 1, k)]) = (cosine * v, r - course.curvature * sine * v);
+    }
+    (A[(n, n + 1)], A[(n + 1, n)]) = (speed, -course.curvature.powi(2) * speed);
+    Ok((A, B, kept))
+}
