@@ -6,6 +6,7 @@
 
 pub mod arkode;
 mod context;
+pub mod cvode;
 mod dense;
 pub mod ida;
 pub mod kinsol;
