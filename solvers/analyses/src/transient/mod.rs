@@ -20,11 +20,13 @@ mod inputs;
 mod integrate;
 mod pieces;
 mod recorder;
+mod track;
 mod trajectory;
 mod watch;
 
 pub use ending::{Cause, Moving, TransientEnding, TransientError};
 pub use inputs::{Constant, Inputs};
+pub use track::{Driven, Pulse, Ramp, Step, Table, Track};
 pub use trajectory::{Crossing, Drift, LimitMet, NearSingular, Trajectory, Worst};
 
 use crate::{Variable, Variables};

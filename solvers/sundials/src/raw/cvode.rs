@@ -2,8 +2,9 @@
 
 use super::context::Context;
 use super::dense::DenseSolver;
+use super::stuck::Stuck;
 use super::vector::{Vector, entries, entries_mut};
-use crate::guard::Guard;
+use crate::guard::{FATAL, Guard};
 use problem::{EvalError, IntegrationEnding};
 use std::ffi::{c_int, c_long, c_void};
 use std::{ptr, slice};
@@ -11,10 +12,11 @@ use sundials_sys::{
     CV_ADAMS, CV_BDF, CV_CONV_FAILURE, CV_ERR_FAILURE, CV_FIRST_RHSFUNC_ERR, CV_ILL_INPUT, CV_LSETUP_FAIL, CV_LSOLVE_FAIL, CV_NORMAL,
     CV_PROJFUNC_FAIL, CV_REPTD_PROJFUNC_ERR, CV_REPTD_RHSFUNC_ERR, CV_RHSFUNC_FAIL, CV_ROOT_RETURN, CV_RTFUNC_FAIL, CV_SUCCESS,
     CV_TOO_CLOSE, CV_TOO_MUCH_ACC, CV_TOO_MUCH_WORK, CV_TSTOP_RETURN, CV_UNREC_RHSFUNC_ERR, CVode, CVodeCreate, CVodeFree,
-    CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumJacEvals, CVodeGetNumNonlinSolvIters, CVodeGetNumStepSolveFails,
-    CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances, CVodeSetInitStep, CVodeSetLinearSolver,
-    CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn, CVodeSetNonlinearSolver, CVodeSetProjErrEst,
-    CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNNonlinSol_FixedPoint, SUNNonlinSolFree, SUNNonlinearSolver,
+    CVodeGetCurrentStep, CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumJacEvals, CVodeGetNumNonlinSolvIters,
+    CVodeGetNumStepSolveFails, CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances,
+    CVodeSetInitStep, CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn,
+    CVodeSetNonlinearSolver, CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNNonlinSol_FixedPoint,
+    SUNNonlinSolFree, SUNNonlinearSolver,
 };
 
 /// What CVODE calls back.
@@ -30,7 +32,7 @@ pub trait System {
 /// The family of formulas, with the iteration that goes with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Adams–Moulton, orders 1 to 12, solved by functional iteration with one vector of Anderson acceleration.
+    /// Adams–Moulton, orders 1 to 12, solved by functional iteration.
     Adams,
     /// Backward differentiation, orders 1 to 5, solved by Newton's method with a matrix from difference quotients.
     Bdf,
@@ -103,6 +105,9 @@ struct Call<'a> {
     system: &'a mut dyn System,
     events: usize,
     guard: Guard,
+    /// The integrator itself.
+    memory: *mut c_void,
+    stuck: Stuck,
 }
 
 impl Memory {
@@ -127,7 +132,7 @@ impl Memory {
                     Solver::Newton { _dense: dense }
                 }
                 Family::Adams => {
-                    let functional = SUNNonlinSol_FixedPoint(y.raw(), 1, context.raw());
+                    let functional = SUNNonlinSol_FixedPoint(y.raw(), 0, context.raw());
                     assert!(!functional.is_null(), "out of memory while creating a SUNDIALS solver");
                     accept(CVodeSetNonlinearSolver(raw, functional), &context);
                     Solver::Functional(functional)
@@ -139,11 +144,6 @@ impl Memory {
             (raw, solver)
         };
         Self { raw, y, tolerance, found: Vec::new(), _solver: solver, context }
-    }
-
-    /// Number of unknowns.
-    pub fn size(&self) -> usize {
-        self.y.as_slice().len()
     }
 
     /// State at the time reached.
@@ -179,7 +179,7 @@ impl Memory {
 
     /// Integrates to `time` or to what ends the integration before, and returns the time reached. A panic of the system goes on here.
     pub fn advance(&mut self, system: &mut dyn System, time: f64) -> (f64, Result<(), IntegrationEnding>) {
-        let mut call = Call { system, events: self.found.len(), guard: Guard::default() };
+        let mut call = Call { system, events: self.found.len(), guard: Guard::default(), memory: self.raw, stuck: Stuck::default() };
         // where CVODE refuses the call it reports no time
         let mut reached = self.time();
         // SAFETY: all handles are owned by self; `call` outlives CVode and is forgotten by CVODE right after it.
@@ -189,7 +189,11 @@ impl Memory {
             CVodeSetUserData(self.raw, ptr::null_mut());
             code
         };
-        let error = call.guard.release();
+        let Call { stuck, guard, .. } = call;
+        let error = guard.release();
+        if stuck.for_ever() && !stuck.failed {
+            return (reached, Err(IntegrationEnding::ErrorTest));
+        }
         if code == CV_RTFUNC_FAIL && self.statistics().steps > 0 {
             reached = self.time();
             // SAFETY: `raw` is a living integrator and the vector has its size.
@@ -272,8 +276,17 @@ fn accept(code: c_int, context: &Context) {
 extern "C" fn rates(time: f64, y: N_Vector, yd: N_Vector, call: *mut c_void) -> c_int {
     // SAFETY: CVODE passes the pointer set in `advance` and two different serial vectors that it leaves alone meanwhile.
     let (call, y, yd) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries_mut(yd)) };
+    let mut step = 0.0;
+    // SAFETY: the integrator that calls.
+    unsafe { CVodeGetCurrentStep(call.memory, &mut step) };
+    call.stuck.note(time, step);
+    if call.stuck.for_ever() {
+        return FATAL;
+    }
     let system = &mut *call.system;
-    call.guard.run(|| system.rates(time, y, yd))
+    let code = call.guard.run(|| system.rates(time, y, yd));
+    call.stuck.failed |= code != 0;
+    code
 }
 
 extern "C" fn correction(time: f64, y: N_Vector, correction: N_Vector, _tolerance: f64, _error: N_Vector, call: *mut c_void) -> c_int {

@@ -10,6 +10,7 @@ pub mod cvode;
 mod dense;
 pub mod ida;
 pub mod kinsol;
+mod stuck;
 mod vector;
 
 use std::ffi::{CStr, c_char, c_int};
