@@ -64,6 +64,16 @@ pub const INTEGRATION: &[IntegrationBackend] = &[
         about: "SUNDIALS ARKODE: explicit Runge–Kutta of order 8, explicit form with projection",
         make: Integrator::Explicit(|| Box::new(sundials::ExplicitRungeKutta::default())),
     },
+    IntegrationBackend {
+        name: "cvode",
+        about: "SUNDIALS CVODE: BDF of variable order, explicit form with projection",
+        make: Integrator::Explicit(|| Box::new(sundials::Cvode::bdf())),
+    },
+    IntegrationBackend {
+        name: "cvode_adams",
+        about: "SUNDIALS CVODE: Adams formulas of variable order, explicit form",
+        make: Integrator::Explicit(|| Box::new(sundials::Cvode::adams())),
+    },
 ];
 
 /// The integrator with this name.

@@ -7,6 +7,7 @@ pub mod arguments;
 pub mod backend;
 pub mod commands;
 pub mod console;
+pub mod interrupt;
 pub mod library;
 pub mod model;
 pub mod motion;
@@ -60,6 +61,9 @@ pub enum Failure {
     /// The analysis as asked for has no unique answer.
     #[error(transparent)]
     Trim(#[from] analyses::trim::TrimError),
+    /// What the analysis starts from could not be reached.
+    #[error("{0}")]
+    Unreached(String),
     /// A file could not be written.
     #[error("`{path}` could not be written: {cause}")]
     Write {
@@ -133,7 +137,7 @@ fn run(kinds: Kinds, arguments: Vec<OsString>, console: Console) -> (Console, u8
         }
         Err(failure) => {
             console.complain(&format!("error: {failure}\n"));
-            if matches!(failure, Failure::Write { .. }) { 1 } else { 2 }
+            if matches!(failure, Failure::Write { .. } | Failure::Unreached(_)) { 1 } else { 2 }
         }
     };
     (console, status)

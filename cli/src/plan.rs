@@ -14,10 +14,10 @@ use mbody::dynamics::System;
 use problem::{Plant, UnknownKind};
 use std::f64::consts::FRAC_PI_2;
 
-/// Options of a steady state.
+/// Options that prescribe a steady motion.
 #[derive(Clone, Debug, Default, Args)]
 #[command(allow_negative_numbers = true)]
-pub struct TrimArguments {
+pub struct SteadyArguments {
     /// Forward speed; left out: the static pose
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub speed: Option<String>,
@@ -51,6 +51,14 @@ pub struct TrimArguments {
     /// Gear, for models with an engine
     #[arg(long, value_name = "NUMBER")]
     pub gear: Option<u32>,
+}
+
+/// Options of a steady state.
+#[derive(Clone, Debug, Default, Args)]
+#[command(allow_negative_numbers = true)]
+pub struct TrimArguments {
+    #[command(flatten)]
+    steady: SteadyArguments,
     /// Give a signal a value or a formula of other signals: `drive.torque=0`, `rear_brake.torque=0.4*front_brake.torque` (repeatable)
     #[arg(long, value_name = "SIGNAL=VALUE", allow_hyphen_values = true)]
     pub given: Vec<String>,
@@ -117,7 +125,7 @@ fn prescribed<D: Dimensioned>(option: &str, name: &'static str, text: &Option<St
 impl TrimArguments {
     /// `--gear` as an override: a parameter of the element `engine`.
     pub fn gear_override(&self) -> Option<String> {
-        self.gear.map(|gear| format!("engine.gear={gear}"))
+        self.steady.gear_override()
     }
 
     /// Reads all values.
@@ -125,6 +133,27 @@ impl TrimArguments {
     /// # Errors
     /// Names the option, the text and what was expected.
     pub fn request(&self) -> Result<Request, Failure> {
+        self.steady.request(&self.given, &self.free)
+    }
+}
+
+impl SteadyArguments {
+    /// `--gear` as an override: a parameter of the element `engine`.
+    pub fn gear_override(&self) -> Option<String> {
+        self.gear.map(|gear| format!("engine.gear={gear}"))
+    }
+
+    /// Whether a motion on the road is asked for, or something that needs one.
+    pub fn moving(&self) -> bool {
+        let turn = [&self.lean, &self.lateral_acceleration, &self.curvature, &self.radius, &self.yaw_rate, &self.steer_torque];
+        self.top_speed || self.speed.is_some() || self.acceleration.is_some() || turn.iter().any(|option| option.is_some())
+    }
+
+    /// Reads all values; `given` and `free` are `--given` and `--free` of a steady state.
+    ///
+    /// # Errors
+    /// Names the option, the text and what was expected.
+    pub fn request(&self, given: &[String], free: &[String]) -> Result<Request, Failure> {
         let turns = [
             (Turn::Lean, prescribed::<Angle>("lean", "lean", &self.lean)?),
             (
@@ -181,7 +210,7 @@ impl TrimArguments {
                 Err(Failure::from(finding.with_hint("to leave a signal open, write `--free SIGNAL`")))
             }
         };
-        let free = |s: &String| match s.split_once('=') {
+        let guessed = |s: &String| match s.split_once('=') {
             None => Ok((s.trim().to_owned(), None)),
             Some((name, guess)) => match guess.trim().parse() {
                 Ok(guess) => Ok((name.trim().to_owned(), Some(guess))),
@@ -201,8 +230,8 @@ impl TrimArguments {
             acceleration,
             front_brake_share,
             top_speed: self.top_speed,
-            given: self.given.iter().map(split).collect::<Result<_, _>>()?,
-            free: self.free.iter().map(free).collect::<Result<_, _>>()?,
+            given: given.iter().map(split).collect::<Result<_, _>>()?,
+            free: free.iter().map(guessed).collect::<Result<_, _>>()?,
         })
     }
 }

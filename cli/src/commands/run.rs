@@ -3,12 +3,14 @@
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument};
 use crate::output::{Angles, History};
+use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::{Context, Exit, Failure, model, motion, results};
+use crate::{Context, Exit, Failure, interrupt, model, motion, results};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Severity;
 use mbody::description::quantity::dimension::{Frequency, Number, Time};
 use mbody::description::quantity::{Dimensioned, parse_quantity};
+use std::path::PathBuf;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "run", command, run };
@@ -31,17 +33,26 @@ struct Arguments {
     /// Samples per second; left out: 100 Hz, or more where the motion is short
     #[arg(long, value_name = "FREQUENCY")]
     rate: Option<String>,
+    #[command(flatten)]
+    steady: SteadyArguments,
     /// Start value of a coordinate, velocity or state, which is held while the rest is brought onto the constraints; or a constant
-    /// input: `steer.torque=1` (repeatable)
+    /// input: `steer.torque=1`. With `--speed` it replaces values of the steady state (repeatable)
     #[arg(long, value_name = "SIGNAL=VALUE", allow_hyphen_values = true)]
     given: Vec<String>,
-    /// Signals to record: any of `fastbike info`, `rate(SIGNAL)` of an unknown, `system.energy`; left out: all (repeatable)
+    /// Inputs over time: a CSV file with the columns `time` and one or more inputs, or that of an earlier run
+    #[arg(long, value_name = "FILE.csv")]
+    signals: Option<PathBuf>,
+    /// End where a signal passes a value: `chassis.forward_speed<5`, `rear_tire.slip_angle>4deg` (repeatable)
+    #[arg(long, value_name = "SIGNAL>VALUE", allow_hyphen_values = true)]
+    until: Vec<String>,
+    /// Signals to record: any of `fastbike info`, `rate(SIGNAL)` of an unknown, `system.energy`, `system.power_in`,
+    /// `system.power_dissipated`; left out: all (repeatable)
     #[arg(long, value_name = "SIGNAL")]
     record: Vec<String>,
-    /// Solver: ida (implicit) or erk (explicit Runge–Kutta)
+    /// Solver: ida (implicit), erk (explicit Runge–Kutta), cvode or cvode_adams (explicit multistep)
     #[arg(long, default_value = "ida")]
     backend: String,
-    /// How constraints enter the implicit form: ggl (default), velocity or acceleration; erk takes the explicit form
+    /// How constraints enter the implicit form: ggl (default), velocity or acceleration; the other solvers take the explicit form
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
     /// Relative tolerance
@@ -52,16 +63,21 @@ struct Arguments {
 }
 
 fn command(command: Command) -> Command {
-    Arguments::augment_args(command).about("Motion over time from the start values").after_help(
-        "The motion starts from `start` of the description and the design pose, with constant inputs.\n\n\
-         Examples:\n  fastbike run andrews_squeezer --duration 30ms\n  \
+    Arguments::augment_args(command).about("Motion over time from a steady state or from start values").after_help(
+        "With `--speed` the motion of a vehicle starts from the steady state that `trim` finds for the same options, and every input keeps the \
+         value that it has there. Otherwise it starts from `start` of the description and the design pose, with inputs at their defaults. \
+         `--signals` then replaces inputs, `--given` start values and inputs. A vehicle that has fallen ends the motion; lifting wheels and \
+         other limits are told with their times, and the motion goes on. Ctrl-C ends it and keeps what was computed.\n\n\
+         Examples:\n  fastbike run gsxr1000 --speed 30 --given steer.torque=2 --until 'chassis.roll<-30deg'\n  \
+         fastbike run ref11 --speed 25 --lean 20deg --signals pulse.csv --plot run.svg\n  fastbike run andrews_squeezer --duration 30ms\n  \
          fastbike run whipple --given chassis.roll_rate=0.05 --plot run.svg\n  \
          fastbike run pendulum --backend erk --rtol 1e-9 --record system.energy --format csv",
     )
 }
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
-    let arguments: Arguments = read(matches)?;
+    let mut arguments: Arguments = read(matches)?;
+    arguments.model.set.extend(arguments.steady.gear_override());
     // the signals shown are our choice
     let chosen = arguments.record.is_empty();
     let request = motion::Request {
@@ -69,7 +85,11 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         relative_tolerance: tolerance(&arguments.rtol)?,
         backend: arguments.backend,
         formulation: arguments.formulation,
+        steady: arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?,
         given: arguments.given,
+        signals: arguments.signals,
+        until: arguments.until,
+        interrupt: (!context.console.is_memory()).then(interrupt::flag),
         record: arguments.record,
     };
     arguments.output.check()?;
@@ -80,7 +100,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let ended =
         outcome.because.as_ref().map(|because| format!("error: the motion ended at {reached:.6} s of {} s: {because}\n", outcome.duration));
     // unasked for, the energy of a conservative system would be a figure of rounding errors
-    let drawn: Vec<usize> = history.shown.iter().copied().filter(|&s| !chosen || history.signals[s].name != motion::ENERGY).collect();
+    let drawn: Vec<usize> = history.shown.iter().copied().filter(|&s| !chosen || !history.signals[s].name.starts_with("system.")).collect();
     let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| figure(history, &drawn));
     context.console.complain(&ended.unwrap_or_default());
     exit

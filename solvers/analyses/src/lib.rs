@@ -1,11 +1,13 @@
 //! Analyses as services: they know signals and problem traits, never an engine and never a trade.
 //!
 //! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them, [`mod@eigen`] their eigenvalues, which
-//! [`modes`] names and follows along a sweep; [`regulator`] designs feedback from them; [`transient`] follows a motion over time; [`expression`] is the small language in which
+//! [`modes`] names and follows along a sweep; [`regulator`] designs feedback from them; [`transient`] follows a motion over time, [`closed_loop`] puts a
+//! plant under the command of controllers; [`expression`] is the small language in which
 //! conditions are written.
 
 #![allow(non_snake_case)]
 
+pub mod closed_loop;
 pub mod eigen;
 pub mod expression;
 pub mod linearize;
@@ -15,6 +17,7 @@ pub mod transient;
 pub mod trim;
 pub mod variable;
 
+pub use closed_loop::{ClosedLoop, LoopError};
 pub use eigen::{EigenError, Spectrum, eigen};
 pub use expression::{Expression, ExpressionError};
 pub use linearize::{LinearModel, LinearizeError, linearize};

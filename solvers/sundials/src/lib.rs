@@ -1,9 +1,10 @@
-//! KINSOL, IDA and ARKODE behind the vocabulary of `problem`.
+//! KINSOL, IDA, CVODE and ARKODE behind the vocabulary of `problem`.
 //!
 //! The C bindings are touched in the module `raw` only, which is also the only module of the workspace with `unsafe`
 //! code. What it hands out is safe: contexts, vectors, matrices and solvers free themselves, a panic inside a callback
 //! reaches the caller as a panic, and nothing is ever printed.
 
+mod cvode;
 mod erk;
 mod guard;
 mod ida;
@@ -11,6 +12,7 @@ mod kinsol;
 mod raw;
 mod request;
 
+pub use cvode::Cvode;
 pub use erk::ExplicitRungeKutta;
 pub use ida::Ida;
 pub use kinsol::{Kinsol, Strategy};

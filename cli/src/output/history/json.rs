@@ -2,7 +2,7 @@
 
 use super::{History, Outcome};
 use crate::output::Options;
-use analyses::transient::Worst;
+use analyses::transient::{Crossing, Worst};
 use serde_json::{Map, Value, json};
 use std::io;
 
@@ -33,10 +33,17 @@ fn object(history: &History) -> Value {
     if let Some(because) = &outcome.because {
         object["because"] = because.as_str().into();
     }
+    if let Some(condition) = &outcome.condition {
+        object["condition"] = condition.as_str().into();
+    }
     object["statistics"] = statistics(outcome);
     object["drift"] = json!({ "position": worst(outcome.drift.position.as_ref()), "velocity": worst(outcome.drift.velocity.as_ref()) });
     object["limits"] =
         limits.map(|l| json!({ "name": l.name, "signal": l.signal, "value": l.value, "threshold": l.threshold, "time": l.time })).collect();
+    let events = outcome.crossings.iter();
+    let event =
+        |c: &Crossing| json!({ "name": c.name, "signal": c.signal, "threshold": c.threshold, "violated": c.violated, "time": c.time });
+    object["events"] = events.map(event).collect();
     object["warnings"] = json!(history.warnings);
     object["units"] = units.into();
     object["time"] = json!(history.time);

@@ -7,7 +7,7 @@ pub(super) mod table;
 use super::axes::Axes;
 use super::report::turned;
 use super::{Given, Kind, Results, Writer};
-use analyses::transient::{Drift, LimitMet};
+use analyses::transient::{Crossing, Drift, LimitMet};
 use problem::{IntegrationOutcome, Signal};
 
 /// How an integration went.
@@ -20,9 +20,11 @@ pub struct Outcome {
     /// Relative tolerance.
     pub relative_tolerance: f64,
     /// Name of the ending.
-    pub ending: &'static str,
-    /// The cause, where the end was not reached.
+    pub ending: String,
+    /// The cause, where it was not what was asked for.
     pub because: Option<String>,
+    /// The condition that was met, where one ended it.
+    pub condition: Option<String>,
     /// Time asked for, s.
     pub duration: f64,
     /// Time reached and work done.
@@ -33,6 +35,8 @@ pub struct Outcome {
     pub drift: Drift,
     /// Limits that were met.
     pub limits: Vec<LimitMet>,
+    /// Crossings of limits, in the order of time.
+    pub crossings: Vec<Crossing>,
 }
 
 /// Signals over time, and how they were found. Values are SI.
@@ -71,6 +75,9 @@ impl Results for History {
         }
         for limit in &mut self.outcome.limits {
             (limit.value, limit.threshold) = (turned(limit.value, &limit.signal), turned(limit.threshold, &limit.signal));
+        }
+        for crossing in &mut self.outcome.crossings {
+            crossing.threshold = turned(crossing.threshold, &crossing.signal);
         }
         self.axes = axes;
         self

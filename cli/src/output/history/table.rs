@@ -5,9 +5,11 @@ use crate::output::number::number;
 use crate::output::palette::styled;
 use crate::output::table::{Column, quantity};
 use crate::output::{Options, units};
-use analyses::transient::Worst;
+use analyses::transient::{Crossing, Worst};
 use std::io;
 
+/// Most events of one limit in a line.
+const SPANS: usize = 6;
 /// Most lines of samples.
 const LINES: usize = 25;
 
@@ -56,7 +58,10 @@ fn thinned(count: usize) -> Vec<usize> {
 fn write_outcome(history: &History, outcome: &Outcome, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let (palette, s) = (options.palette, &outcome.statistics);
     let ending = match &outcome.because {
-        None => styled(palette.good, &format!("{} {} s", outcome.ending, number(s.time))),
+        None => {
+            let met = outcome.condition.as_ref().map(|condition| format!(" {condition}, at")).unwrap_or_default();
+            styled(palette.good, &format!("{}{met} {} s", outcome.ending, number(s.time)))
+        }
         Some(because) => {
             let text = format!("{} at {} s of {} s: {because}", outcome.ending, number(s.time), number(outcome.duration));
             styled(palette.bad, &text)
@@ -68,6 +73,9 @@ fn write_outcome(history: &History, outcome: &Outcome, options: &Options, out: &
         let [value, threshold] = [limit.value, limit.threshold].map(|v| quantity(v, unit, options.angles));
         let text = format!("{}: `{}` is {value} at {} s, the limit {threshold}", limit.name, limit.signal, number(limit.time));
         writeln!(out, "limit met: {}", styled(palette.caution, &text))?;
+    }
+    for line in events(&outcome.crossings) {
+        writeln!(out, "events: {}", styled(palette.caution, &line))?;
     }
     let method = match outcome.formulation == outcome.backend {
         true => outcome.backend.to_owned(),
@@ -89,6 +97,29 @@ fn write_outcome(history: &History, outcome: &Outcome, options: &Options, out: &
         }
     }
     Ok(())
+}
+
+/// One line per limit and signal: `wheel_lifted, front_tire.normal_force: from 1.203 to 1.871 s, from 2.01 s`.
+fn events(crossings: &[Crossing]) -> Vec<String> {
+    let mut lines: Vec<(&str, &str, Vec<String>)> = Vec::new();
+    for crossing in crossings {
+        let same = |line: &(&str, &str, Vec<String>)| line.0 == crossing.name && line.1 == crossing.signal;
+        let at = lines.iter().position(same).unwrap_or_else(|| {
+            lines.push((&crossing.name, &crossing.signal, Vec::new()));
+            lines.len() - 1
+        });
+        let spans = &mut lines[at].2;
+        match (crossing.violated, spans.last_mut()) {
+            (false, Some(span)) if !span.contains(" to ") => span.push_str(&format!(" to {:.4}", crossing.time)),
+            (false, _) => spans.push(format!("to {:.4}", crossing.time)),
+            (true, _) => spans.push(format!("from {:.4}", crossing.time)),
+        }
+    }
+    let told = |spans: &[String]| match spans.len() {
+        0..=SPANS => spans.join(", "),
+        all => format!("{}, … {all} times", spans[..SPANS].join(", ")),
+    };
+    lines.iter().map(|(name, signal, spans)| format!("{name} of `{signal}` {} s", told(spans))).collect()
 }
 
 /// `at most 1.2e-6 mm (closure along x, at 0.3 s)`.

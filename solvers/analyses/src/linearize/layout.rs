@@ -32,8 +32,8 @@ impl Layout {
     /// # Errors
     /// Constraints on accelerations, or another number of multipliers than of constraints.
     pub(super) fn of(plant: &dyn Plant) -> Result<Self, LinearizeError> {
-        let unknowns = |kinds: &[UnknownKind]| -> Vec<usize> {
-            plant.unknowns().iter().enumerate().filter(|(_, u)| kinds.contains(&u.kind)).map(|(i, _)| i).collect()
+        let unknowns = |kind: UnknownKind| -> Vec<usize> {
+            plant.unknowns().iter().enumerate().filter(|(_, u)| u.kind == kind).map(|(i, _)| i).collect()
         };
         let rows = |kind: EquationKind| -> Vec<usize> {
             plant.equations().iter().enumerate().filter(|(_, e)| e.kind == kind).map(|(i, _)| i).collect()
@@ -42,8 +42,8 @@ impl Layout {
             let because = format!("the {} is one on accelerations", plant.equations()[row].name);
             return Err(LinearizeError::Formulation { because });
         }
-        // rows of elements come in the order of the states; what is left of the algebraic unknowns are multipliers
-        let mut inner = unknowns(&[UnknownKind::State, UnknownKind::Algebraic]);
+        // rows of elements come in the order of the states, wherever these stand; what is left of the algebraic unknowns are multipliers
+        let mut inner = [unknowns(UnknownKind::State), unknowns(UnknownKind::Algebraic)].concat();
         let element_rows = rows(EquationKind::Element);
         let multipliers = inner.split_off(element_rows.len().min(inner.len()));
         let mut layout = Self {
@@ -63,8 +63,8 @@ impl Layout {
             return Err(LinearizeError::Formulation { because });
         }
         let parts = [
-            (unknowns(&[UnknownKind::Position]), rows(EquationKind::Kinematic)),
-            (unknowns(&[UnknownKind::Velocity]), rows(EquationKind::Dynamic)),
+            (unknowns(UnknownKind::Position), rows(EquationKind::Kinematic)),
+            (unknowns(UnknownKind::Velocity), rows(EquationKind::Dynamic)),
             (inner, element_rows),
         ];
         for (unknown, row) in parts.into_iter().flat_map(|(unknowns, rows)| unknowns.into_iter().zip(rows)) {

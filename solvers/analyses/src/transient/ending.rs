@@ -8,12 +8,14 @@ use thiserror::Error;
 pub enum TransientEnding {
     /// The last sampling time was reached.
     Reached,
-    /// An event function changed its sign.
-    Event {
-        /// Its index.
-        event: usize,
-        /// Whether it rose.
-        rising: bool,
+    /// A condition was met that ends the simulation.
+    Met {
+        /// Its name.
+        name: String,
+        /// The signal it watches.
+        signal: String,
+        /// The threshold that was passed.
+        threshold: f64,
     },
     /// The receiver of the samples asked for it.
     Stopped,
@@ -25,11 +27,11 @@ pub enum TransientEnding {
 }
 
 impl TransientEnding {
-    /// `reached`, `event`, `stopped` or `not_converged`.
-    pub fn name(&self) -> &'static str {
+    /// `reached`, `stopped`, `not_converged`, or the name of the condition that was met.
+    pub fn name(&self) -> &str {
         match self {
             Self::Reached => "reached",
-            Self::Event { .. } => "event",
+            Self::Met { name, .. } => name,
             Self::Stopped => "stopped",
             Self::Failed { .. } => "not_converged",
         }
@@ -113,6 +115,12 @@ pub enum TransientError {
     /// Sampling times that are no sequence.
     #[error("a simulation needs at least two sampling times, each later than the one before")]
     Times,
+    /// A condition on a signal that is not there.
+    #[error("a condition watches `{signal}`, which is no signal of this model")]
+    UnknownSignal {
+        /// The name.
+        signal: String,
+    },
     /// The start cannot be brought onto the constraints.
     #[error("the coordinates of the start cannot satisfy the constraints; {}", violated(rows))]
     Open {

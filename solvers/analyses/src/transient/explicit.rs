@@ -1,13 +1,14 @@
 //! A plant as `ẏ = f(t, y)` of its differential unknowns, on the manifold of its constraints.
 
 use super::SharedPlant;
-use super::inputs::Inputs;
+use super::acting::{Acting, Observer};
+use super::watch::Watch;
 use problem::{EquationKind, EvalError, OdeProblem, Off, ProjectionError, UnknownKind};
 
 /// All unknowns of a plant around the states of its explicit form.
 pub(super) struct Whole<'a, 'p> {
     plant: &'a SharedPlant<'p>,
-    inputs: &'a dyn Inputs,
+    acting: &'a Acting<'a>,
     /// Indices of the differential unknowns: the states.
     states: Vec<usize>,
     /// The row that belongs to each state: rate of a coordinate, equation of motion, row of an element.
@@ -15,11 +16,13 @@ pub(super) struct Whole<'a, 'p> {
     y: Vec<f64>,
     yd: Vec<f64>,
     u: Vec<f64>,
+    /// Time of the point that was completed last, while y and ẏ are still those of it.
+    completed: Option<f64>,
 }
 
 impl<'a, 'p> Whole<'a, 'p> {
     /// Starts from a consistent point.
-    pub(super) fn new(plant: &'a SharedPlant<'p>, inputs: &'a dyn Inputs, y: &[f64], yd: &[f64]) -> Self {
+    pub(super) fn new(plant: &'a SharedPlant<'p>, acting: &'a Acting<'a>, y: &[f64], yd: &[f64]) -> Self {
         let p = plant.borrow();
         let states: Vec<usize> = (0..y.len()).filter(|&i| p.unknowns()[i].differential).collect();
         let row = |state: usize| {
@@ -35,21 +38,35 @@ impl<'a, 'p> Whole<'a, 'p> {
             rows.map(|(i, _)| i).nth(nth).unwrap_or_default()
         };
         let rows = states.iter().map(|&i| row(i)).collect();
-        Self { plant, inputs, states, rows, y: y.to_vec(), yd: yd.to_vec(), u: vec![0.0; p.inputs().len()] }
+        let (y, yd, u) = (y.to_vec(), yd.to_vec(), vec![0.0; p.inputs().len()]);
+        Self { plant, acting, states, rows, y, yd, u, completed: None }
     }
 
     /// Completes the states by multipliers and rates: all of y and ẏ.
     pub(super) fn complete(&mut self, time: f64, states: &[f64]) -> Result<(&[f64], &[f64]), EvalError> {
+        let same = self.completed == Some(time) && self.states.iter().zip(states).all(|(&i, x)| self.y[i] == *x);
+        if same {
+            return Ok((&self.y, &self.yd));
+        }
         self.scatter(time, states);
         self.plant.borrow_mut().solve_rates(time, &mut self.y, &self.u, &mut self.yd)?;
         match self.states.iter().position(|&i| !self.yd[i].is_finite()) {
             Some(k) => Err(EvalError::Recoverable { equation: self.rows[k] }),
-            None => Ok((&self.y, &self.yd)),
+            None => {
+                self.completed = Some(time);
+                Ok((&self.y, &self.yd))
+            }
         }
     }
 
+    /// The next point is completed anew, even if it is the last one.
+    pub(super) fn forget(&mut self) {
+        self.completed = None;
+    }
+
     fn scatter(&mut self, time: f64, states: &[f64]) {
-        self.inputs.at(time, &mut self.u);
+        self.completed = None;
+        self.acting.at(time, &mut self.u);
         for (&i, &x) in self.states.iter().zip(states) {
             self.y[i] = x;
         }
@@ -59,6 +76,8 @@ impl<'a, 'p> Whole<'a, 'p> {
 /// The explicit form of a plant and its inputs.
 pub(super) struct ExplicitForm<'a, 'p> {
     whole: Whole<'a, 'p>,
+    watch: &'a Watch,
+    observer: Observer<'a, 'p>,
     absolute_tolerance: Vec<f64>,
     /// Why the last evaluation failed.
     failure: Option<EvalError>,
@@ -68,16 +87,22 @@ pub(super) struct ExplicitForm<'a, 'p> {
 
 impl<'a, 'p> ExplicitForm<'a, 'p> {
     /// Starts from a consistent point.
-    pub(super) fn new(plant: &'a SharedPlant<'p>, inputs: &'a dyn Inputs, y: &[f64], yd: &[f64]) -> Self {
-        let whole = Whole::new(plant, inputs, y, yd);
+    pub(super) fn new(plant: &'a SharedPlant<'p>, acting: &'a Acting<'a>, watch: &'a Watch, (y, yd): (&[f64], &[f64])) -> Self {
+        let whole = Whole::new(plant, acting, y, yd);
+        let observer = Observer::new(plant, acting);
         let p = plant.borrow();
         let absolute_tolerance = whole.states.iter().map(|&i| p.unknowns()[i].absolute_tolerance).collect();
-        Self { whole, absolute_tolerance, failure: None, off: Vec::new() }
+        Self { whole, watch, observer, absolute_tolerance, failure: None, off: Vec::new() }
     }
 
     /// The states among all unknowns.
     pub(super) fn states(&self) -> &[usize] {
         &self.whole.states
+    }
+
+    /// The next point is evaluated anew, even if it is the last one.
+    pub(super) fn forget(&mut self) {
+        self.whole.forget();
     }
 
     /// Why the last evaluation failed, if it did.
@@ -128,5 +153,14 @@ impl OdeProblem for ExplicitForm<'_, '_> {
                 Err(EvalError::Recoverable { equation: whole.rows.first().copied().unwrap_or_default() })
             }
         }
+    }
+    fn event_count(&self) -> usize {
+        self.watch.count()
+    }
+    fn events(&mut self, time: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvalError> {
+        let point = self.whole.complete(time, y);
+        let watched = point.and_then(|point| self.watch.values(&mut self.observer, time, point, values));
+        self.failure = watched.err();
+        watched
     }
 }

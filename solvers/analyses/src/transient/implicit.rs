@@ -1,14 +1,17 @@
 //! A plant as `0 = F(t, y, ẏ)` with rows in units of their nominal values.
 
 use super::SharedPlant;
+use super::acting::{Acting, Observer};
 use super::diagnosis::{TOLD, off};
-use super::inputs::Inputs;
+use super::watch::Watch;
 use problem::{At, DaeProblem, EvalError, Matrix, Off, Seeds};
 
 /// The implicit form of a plant and its inputs.
 pub(super) struct Implicit<'a, 'p> {
     plant: &'a SharedPlant<'p>,
-    inputs: &'a dyn Inputs,
+    acting: &'a Acting<'a>,
+    watch: &'a Watch,
+    observer: Observer<'a, 'p>,
     differential: Vec<bool>,
     absolute_tolerance: Vec<f64>,
     nominal: Vec<f64>,
@@ -26,14 +29,17 @@ pub(super) struct Implicit<'a, 'p> {
 }
 
 impl<'a, 'p> Implicit<'a, 'p> {
-    pub(super) fn new(plant: &'a SharedPlant<'p>, inputs: &'a dyn Inputs) -> Self {
+    pub(super) fn new(plant: &'a SharedPlant<'p>, acting: &'a Acting<'a>, watch: &'a Watch) -> Self {
+        let observer = Observer::new(plant, acting);
         let p = plant.borrow();
         let (ny, nf, nu, nz) = (p.unknowns().len(), p.equations().len(), p.inputs().len(), p.outputs().len());
         let mut seeds = Seeds::zeros(ny, nu, ny);
         (0..ny).for_each(|i| seeds.y[(i, i)] = 1.0);
         Self {
             plant,
-            inputs,
+            acting,
+            watch,
+            observer,
             differential: p.unknowns().iter().map(|u| u.differential).collect(),
             absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance).collect(),
             nominal: p.equations().iter().map(|e| e.nominal).collect(),
@@ -84,7 +90,7 @@ impl DaeProblem for Implicit<'_, '_> {
         &self.absolute_tolerance
     }
     fn residual(&mut self, time: f64, y: &[f64], yd: &[f64], residual: &mut [f64]) -> Result<(), EvalError> {
-        self.inputs.at(time, &mut self.u);
+        self.acting.at(time, &mut self.u);
         let evaluated = self.plant.borrow_mut().residual(At { time, y, yd, u: &self.u }, &mut self.last);
         self.failure = evaluated.err();
         for ((scaled, row), nominal) in residual.iter_mut().zip(&self.last).zip(&self.nominal) {
@@ -94,7 +100,7 @@ impl DaeProblem for Implicit<'_, '_> {
     }
     fn jacobian(&mut self, time: f64, c: f64, y: &[f64], yd: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
         self.seed(c);
-        self.inputs.at(time, &mut self.u);
+        self.acting.at(time, &mut self.u);
         let at = At { time, y, yd, u: &self.u };
         let values = (&mut self.last[..], &mut self.outputs[..]);
         let evaluated = self.plant.borrow_mut().along(at, &self.seeds, values, &mut self.d_residual, &mut self.d_outputs);
@@ -104,5 +110,13 @@ impl DaeProblem for Implicit<'_, '_> {
             column.for_each(|((scaled, entry), nominal)| *scaled = entry / nominal);
         }
         evaluated
+    }
+    fn event_count(&self) -> usize {
+        self.watch.count()
+    }
+    fn events(&mut self, time: f64, y: &[f64], yd: &[f64], values: &mut [f64]) -> Result<(), EvalError> {
+        let watched = self.watch.values(&mut self.observer, time, (y, yd), values);
+        self.failure = watched.err();
+        watched
     }
 }

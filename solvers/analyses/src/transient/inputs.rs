@@ -4,11 +4,15 @@ use problem::Plant;
 
 /// The inputs of a plant as functions of time.
 ///
-/// An input that names its rate input (road height and height rate) is followed together with it: both are written here. Functions
-/// should be smooth between two sampling times; a jump belongs on a sampling time.
+/// An input that names its rate input (road height and height rate) is followed together with it: both are written here.
 pub trait Inputs {
-    /// Writes all inputs at `time` (s), in SI units.
+    /// Writes all inputs at `time` (s), in SI units; at a break those after it.
     fn at(&self, time: f64, u: &mut [f64]);
+
+    /// Times at which inputs jump or have a corner, s, in any order: the integration starts anew there. Elsewhere inputs are smooth.
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 /// Inputs that do not change.

@@ -6,35 +6,40 @@
 //! 3. Every sample is recorded by name as soon as it is computed. A simulation that cannot go on is no error: it has an ending with the
 //!    time reached and the cause in signal and equation names, and everything before it is kept.
 //!
-//! All values are SI; times are in s. The service allocates nothing between the first and the last sample.
+//! 4. Where an input jumps and where a condition on a signal is met the integration stops exactly there and starts anew: with rates and
+//!    multipliers after the jump, and without a memory of what was before.
 //!
-//! An event function on signals (`DaeProblem::events`, `OdeProblem::events`) would stand in both forms of the plant; its ending is there.
+//! All values are SI; times are in s. The service allocates nothing between the first and the last sample, events left aside.
 
+mod acting;
 mod diagnosis;
 mod ending;
 mod explicit;
 mod implicit;
 mod inputs;
+mod integrate;
+mod pieces;
 mod recorder;
+mod track;
 mod trajectory;
+mod watch;
 
 pub use ending::{Cause, Moving, TransientEnding, TransientError};
 pub use inputs::{Constant, Inputs};
-pub use trajectory::{Drift, LimitMet, NearSingular, Trajectory, Worst};
+pub use track::{Driven, Pulse, Ramp, Step, Table, Track};
+pub use trajectory::{Crossing, Drift, LimitMet, NearSingular, Trajectory, Worst};
 
 use crate::{Variable, Variables};
-use diagnosis::{fastest, not_finite, off_at, undetermined};
-use explicit::{ExplicitForm, Whole};
-use implicit::Implicit;
-use problem::{DaeMethod, Flow, Integrable, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, Plant};
+use acting::{Acting, Observer};
+use integrate::Integration;
+use pieces::{Pieces, met, nothing_done};
+use problem::{DaeMethod, Flow, Integrable, IntegrationOptions, IntegrationOutcome, Limit, OdeMethod, Plant};
 use recorder::Recorder;
 use std::cell::RefCell;
+use watch::Watch;
 
 /// Problem and recorder evaluate the same plant, by turns.
 type SharedPlant<'p> = RefCell<&'p mut dyn Integrable>;
-
-/// Longest first step of an implicit method, s.
-const FIRST_STEP: f64 = 1e-6;
 
 /// A method of either form.
 pub enum Method<'a> {
@@ -94,6 +99,8 @@ pub struct Transient {
     pub options: IntegrationOptions,
     /// What is recorded.
     pub record: Vec<Variable>,
+    /// Conditions that end it where they are violated. Limits that the plant declares are told and do not end it, unless they stand here.
+    pub ends: Vec<Limit>,
 }
 
 /// A simulation that was run.
@@ -107,8 +114,10 @@ pub struct Simulation {
     pub statistics: IntegrationOutcome,
     /// How well the constraints held.
     pub drift: Drift,
-    /// Declared limits that were violated on the way, in the order of their declaration.
+    /// Declared limits that were violated at some sample, in the order of their declaration.
     pub limits: Vec<LimitMet>,
+    /// Crossings of declared limits, in the order of time.
+    pub crossings: Vec<Crossing>,
     /// The sample nearest to a singular position, where the constraints lost most of their independence.
     pub near_singular: Option<NearSingular>,
     /// All unknowns at the time reached.
@@ -133,7 +142,7 @@ pub fn everything(plant: &dyn Plant) -> Vec<Variable> {
 impl Transient {
     /// A simulation from the stated start, everything recorded.
     pub fn new(plant: &dyn Plant, times: Vec<f64>) -> Self {
-        Self { start: Start::stated(plant), times, options: IntegrationOptions::default(), record: everything(plant) }
+        Self { start: Start::stated(plant), times, options: IntegrationOptions::default(), record: everything(plant), ends: Vec::new() }
     }
 
     /// Runs it.
@@ -142,29 +151,60 @@ impl Transient {
     /// The simulation could not start: no sequence of times, or a start that cannot satisfy the constraints. What happens later is an
     /// ending.
     pub fn run(&self, plant: &mut dyn Integrable, inputs: &dyn Inputs, method: Method<'_>) -> Result<Simulation, TransientError> {
+        self.run_watched(plant, inputs, method, &mut |_| Flow::Continue)
+    }
+
+    /// Runs it and tells `watcher` the time of every sample; it may ask for the end.
+    ///
+    /// # Errors
+    /// As [`Transient::run`].
+    pub fn run_watched(
+        &self,
+        plant: &mut dyn Integrable,
+        inputs: &dyn Inputs,
+        method: Method<'_>,
+        watcher: &mut dyn FnMut(f64) -> Flow,
+    ) -> Result<Simulation, TransientError> {
         let (mut y, mut yd) = self.consistent_start(plant, inputs)?;
         let variables = Variables::of(&*plant);
-        let plant = RefCell::new(plant);
+        let watch = Watch::new(&*plant, &self.ends, &variables)?;
+        let (plant, acting) = (RefCell::new(plant), Acting::new(inputs));
         // one more: the time reached, where it lies between two samples
-        let mut recorder = Recorder::new(&plant, inputs, &variables, &self.record, self.times.len() + 1);
-        let (statistics, cause) = match method {
-            Method::Dae(method) => self.implicitly(&plant, inputs, method, (&mut y, &mut yd), &mut recorder),
-            Method::Ode(method) => self.explicitly(&plant, inputs, method, (&mut y, &mut yd), &mut recorder),
+        let mut recorder = Recorder::new(&plant, &acting, &variables, &self.record, self.times.len() + 1);
+        let spacing = self.times.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        let work = Integration::new((&plant, &acting, &watch), method, (&y, &yd), self.options, spacing);
+        let mut pieces = Pieces { samples: &self.times, breaks: self.breaks(inputs), next: 0, times: Vec::with_capacity(self.times.len()) };
+        let mut crossings = Vec::new();
+        let (ending, statistics) = match self.met_at_start(&plant, &acting, &watch, (&y, &yd)) {
+            Some(ending) => (ending, nothing_done(self.times[0])),
+            None => pieces.integrate((&plant, &acting, &watch), work, (&mut y, &mut yd), &mut recorder, (&mut crossings, watcher)),
         };
         // what was reached beyond the last sample is kept too
         let beyond = recorder.last_time().is_none_or(|last| last < statistics.time);
         if beyond && recorder.failure().is_none() && yd.iter().all(|rate| rate.is_finite()) {
             recorder.sample(statistics.time, &y, &yd);
         }
-        let ending = match (statistics.ending, recorder.failure()) {
-            (IntegrationEnding::Finished, _) => TransientEnding::Reached,
-            (IntegrationEnding::Event { event, rising }, _) => TransientEnding::Event { event, rising },
-            (IntegrationEnding::Stopped, None) => TransientEnding::Stopped,
-            (IntegrationEnding::Stopped, Some(e)) => TransientEnding::Failed { cause: not_finite(e, &plant) },
-            (_, _) => TransientEnding::Failed { cause },
-        };
         let (trajectory, drift, limits, near_singular) = recorder.finish();
-        Ok(Simulation { trajectory, ending, statistics, drift, limits, near_singular, y, yd })
+        Ok(Simulation { trajectory, ending, statistics, drift, limits, crossings, near_singular, y, yd })
+    }
+
+    /// Takes the conditions as they are at the start, where one of them may end the simulation already.
+    fn met_at_start(&self, plant: &SharedPlant<'_>, acting: &Acting<'_>, watch: &Watch, at: (&[f64], &[f64])) -> Option<TransientEnding> {
+        let mut values = vec![0.0; watch.count()];
+        // where this fails, so will the first sample, with its row
+        watch.values(&mut Observer::new(plant, acting), self.times[0], at, &mut values).ok()?;
+        watch.begin(&values).map(met)
+    }
+
+    /// Breaks of the inputs within the time asked for, each once, in order.
+    fn breaks(&self, inputs: &dyn Inputs) -> Vec<f64> {
+        let (first, last) = (self.times[0], self.times[self.times.len() - 1]);
+        let mut breaks = inputs.breaks();
+        breaks.retain(|&t| first < t && t < last);
+        breaks.sort_by(f64::total_cmp);
+        // no step fits between times that rounding separates
+        breaks.dedup_by(|b, a| *b - *a <= 1e-12 * b.abs());
+        breaks
     }
 
     /// Coordinates and velocities on the constraints, then multipliers and rates.
@@ -180,93 +220,5 @@ impl Transient {
             .solve_rates(first, &mut y, &u, &mut yd)
             .map_err(|e| TransientError::NotFinite { equation: ending::equation(e, plant.equations()) })?;
         Ok((y, yd))
-    }
-
-    /// Integrates the implicit form; the cause matters only where the integration failed.
-    fn implicitly(
-        &self,
-        plant: &SharedPlant<'_>,
-        inputs: &dyn Inputs,
-        method: &mut dyn DaeMethod,
-        (y, yd): (&mut [f64], &mut [f64]),
-        recorder: &mut Recorder<'_, '_>,
-    ) -> (IntegrationOutcome, Cause) {
-        let mut problem = Implicit::new(plant, inputs);
-        let options = IntegrationOptions { first_step: self.options.first_step.or(Some(self.first_step())), ..self.options };
-        let mut sink = |time: f64, y: &[f64], yd: &[f64]| recorder.sample(time, y, yd);
-        let outcome = method.integrate(&mut problem, &self.times, (&mut *y, &mut *yd), &options, &mut sink);
-        let cause = match (outcome.ending, problem.failure()) {
-            (IntegrationEnding::Evaluation(e), _) | (IntegrationEnding::Convergence | IntegrationEnding::ErrorTest, Some(e)) => {
-                not_finite(e, plant)
-            }
-            (IntegrationEnding::Convergence, None) => Cause::Convergence { rows: problem.worst() },
-            (IntegrationEnding::Singular, _) => {
-                // the inverse of a typical step
-                let elapsed = outcome.time - self.times[0];
-                let c = if elapsed > 0.0 { outcome.steps.max(1) as f64 / elapsed } else { 1e3 };
-                Cause::Singular { together: undetermined(plant, &mut problem, (outcome.time, c), (y, yd)) }
-            }
-            (IntegrationEnding::Refused, _) => Cause::Refused { rows: off_at(&mut problem, outcome.time, (y, yd)) },
-            (ending, _) => self.too_fast(ending, plant, (y, yd)),
-        };
-        (outcome, cause)
-    }
-
-    /// First step of an implicit method where nobody says otherwise, s.
-    ///
-    /// A method's own choice, half a tolerance over the largest rate, is some 1e-10 s for a mechanism that starts from rest. Over such a step the
-    /// rounding of a closed loop (1e-17 m) is a correction of 1e-7 m/s, which no iteration resolves, and shorter steps are worse.
-    fn first_step(&self) -> f64 {
-        self.times.windows(2).map(|w| w[1] - w[0]).fold(FIRST_STEP, f64::min)
-    }
-
-    /// Integrates the explicit form; the cause matters only where the integration failed.
-    fn explicitly(
-        &self,
-        plant: &SharedPlant<'_>,
-        inputs: &dyn Inputs,
-        method: &mut dyn OdeMethod,
-        (y, yd): (&mut [f64], &mut [f64]),
-        recorder: &mut Recorder<'_, '_>,
-    ) -> (IntegrationOutcome, Cause) {
-        let mut problem = ExplicitForm::new(plant, inputs, y, yd);
-        let mut whole = Whole::new(plant, inputs, y, yd);
-        let mut states: Vec<f64> = problem.states().iter().map(|&i| y[i]).collect();
-        let mut lost = None;
-        let mut sink = |time: f64, states: &[f64], _: &[f64]| match whole.complete(time, states) {
-            Ok((y, yd)) => recorder.sample(time, y, yd),
-            Err(e) => {
-                lost = Some(e);
-                Flow::Stop
-            }
-        };
-        let mut outcome = method.integrate(&mut problem, &self.times, &mut states, &self.options, &mut sink);
-        if let Some(e) = lost {
-            outcome.ending = IntegrationEnding::Evaluation(e);
-        }
-        match whole.complete(outcome.time, &states) {
-            Ok((all, rates)) => {
-                y.copy_from_slice(all);
-                yd.copy_from_slice(rates);
-            }
-            Err(_) => yd.fill(f64::NAN),
-        }
-        let cause = match (outcome.ending, problem.failure()) {
-            (IntegrationEnding::Evaluation(_) | IntegrationEnding::ErrorTest, _) if !problem.off().is_empty() => {
-                Cause::Open { rows: problem.off().to_vec() }
-            }
-            (IntegrationEnding::Evaluation(e), _) | (IntegrationEnding::ErrorTest, Some(e)) => not_finite(e, plant),
-            (ending, _) => self.too_fast(ending, plant, (y, yd)),
-        };
-        (outcome, cause)
-    }
-
-    /// Too many steps, or too small ones.
-    fn too_fast(&self, ending: IntegrationEnding, plant: &SharedPlant<'_>, at: (&[f64], &[f64])) -> Cause {
-        let moving = fastest(plant, &self.options, at);
-        match ending {
-            IntegrationEnding::TooManySteps => Cause::TooManySteps { allowed: self.options.max_steps, moving },
-            _ => Cause::ErrorTest { moving },
-        }
     }
 }

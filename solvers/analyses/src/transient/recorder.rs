@@ -1,11 +1,11 @@
 //! Takes samples: recorded signals, drift of the constraints, limits that were met.
 
 use super::SharedPlant;
+use super::acting::{Acting, Observer};
 use super::diagnosis::off;
-use super::inputs::Inputs;
 use super::trajectory::{Drift, LimitMet, NearSingular, Trajectory, Worst};
 use crate::{Variable, Variables};
-use problem::{At, EquationKind, EvalError, Flow};
+use problem::{EquationKind, EvalError, Flow};
 
 /// Share of their independence at the start below which constraints are near a singular position.
 const NEAR: f64 = 0.1;
@@ -28,7 +28,7 @@ struct Watched {
 /// The receiver of all samples.
 pub(super) struct Recorder<'a, 'p> {
     plant: &'a SharedPlant<'p>,
-    inputs: &'a dyn Inputs,
+    observer: Observer<'a, 'p>,
     record: Vec<Variable>,
     trajectory: Trajectory,
     /// Constraints on coordinates, constraints on velocities.
@@ -37,16 +37,13 @@ pub(super) struct Recorder<'a, 'p> {
     limits: Vec<Watched>,
     /// Independence of the constraints at the first sample, and the least so far with its time.
     independence: Option<(f64, f64, f64)>,
-    u: Vec<f64>,
-    residual: Vec<f64>,
-    outputs: Vec<f64>,
     failure: Option<EvalError>,
 }
 
 impl<'a, 'p> Recorder<'a, 'p> {
     pub(super) fn new(
         plant: &'a SharedPlant<'p>,
-        inputs: &'a dyn Inputs,
+        acting: &'a Acting<'a>,
         variables: &Variables,
         record: &[Variable],
         samples: usize,
@@ -58,32 +55,22 @@ impl<'a, 'p> Recorder<'a, 'p> {
         let watched = watched.filter_map(|(limit, l)| variables.find(&l.signal).map(|variable| Watched { limit, variable, met: None }));
         Self {
             plant,
-            inputs,
+            observer: Observer::new(plant, acting),
             record: record.to_vec(),
             trajectory: Trajectory::with_room(variables, record, samples),
             families: [family(EquationKind::Constraint), family(EquationKind::VelocityConstraint)],
             nominal: p.equations().iter().map(|e| e.nominal).collect(),
             limits: watched.collect(),
             independence: None,
-            u: vec![0.0; p.inputs().len()],
-            residual: vec![0.0; p.equations().len()],
-            outputs: vec![0.0; p.outputs().len()],
             failure: None,
         }
     }
 
     /// Takes one sample. What cannot be evaluated is recorded as it is, and nothing further is asked for.
     pub(super) fn sample(&mut self, time: f64, y: &[f64], yd: &[f64]) -> Flow {
-        self.inputs.at(time, &mut self.u);
-        let at = At { time, y, yd, u: &self.u };
-        let evaluated = self.plant.borrow_mut().evaluate(at, &mut self.residual, &mut self.outputs);
-        let (u, outputs) = (&self.u, &self.outputs);
-        let value = |v: Variable| match v {
-            Variable::Unknown(i) => y[i],
-            Variable::Rate(i) => yd[i],
-            Variable::Input(i) => u[i],
-            Variable::Output(i) => outputs[i],
-        };
+        let evaluated = self.observer.look(time, y, yd);
+        let observer = &self.observer;
+        let value = |v: Variable| observer.value(v, (y, yd));
         self.trajectory.time.push(time);
         for (column, &v) in self.trajectory.columns.iter_mut().zip(&self.record) {
             column.push(value(v));
@@ -93,7 +80,7 @@ impl<'a, 'p> Recorder<'a, 'p> {
             return Flow::Stop;
         }
         if self.families.iter().any(|family| !family.rows.is_empty()) {
-            let now = self.plant.borrow_mut().independence(time, y, &self.u);
+            let now = self.plant.borrow_mut().independence(time, y, &observer.u);
             let (first, least, when) = self.independence.unwrap_or((now, now, time));
             self.independence = Some(if now < least { (first, now, time) } else { (first, least, when) });
         }
@@ -107,8 +94,8 @@ impl<'a, 'p> Recorder<'a, 'p> {
         for family in &mut self.families {
             for &row in &family.rows {
                 let share = |row: usize, residual: f64| (residual / self.nominal[row]).abs();
-                if family.worst.is_none_or(|(r, worst, _)| share(row, self.residual[row]) > share(r, worst)) {
-                    family.worst = Some((row, self.residual[row], time));
+                if family.worst.is_none_or(|(r, worst, _)| share(row, observer.residual[row]) > share(r, worst)) {
+                    family.worst = Some((row, observer.residual[row], time));
                 }
             }
         }

@@ -84,3 +84,21 @@ pub struct LimitMet {
     /// Time of the first such sample, s.
     pub time: f64,
 }
+
+/// A declared limit that was crossed on the way, at the time found by the method.
+///
+/// Violated at the threshold, respected again once a thousandth of the nominal value of the signal is between them; a thousand crossings of
+/// one limit are told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Crossing {
+    /// Stable name of the limit: `wheel_lifted`.
+    pub name: String,
+    /// The signal it watches.
+    pub signal: String,
+    /// The declared threshold.
+    pub threshold: f64,
+    /// Whether it is violated from now on, or respected again.
+    pub violated: bool,
+    /// When, s.
+    pub time: f64,
+}

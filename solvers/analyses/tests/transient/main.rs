@@ -1,5 +1,6 @@
 //! Does the time-domain service find consistent starts, hand out the right problem in both forms, and keep what it computed?
 
+mod closed_loop;
 mod methods;
 mod plants;
 

@@ -93,6 +93,18 @@ pub const GRAVITY: f64 = 9.81;
 /// Mass of the pendulum, kg.
 pub const BOB: f64 = 1.5;
 
+/// Rows of the pendulum.
+fn pendulum_rows(at: At<'_>, r: &mut [f64]) -> Result<(), EvalError> {
+    let [x, y, vx, vy, lambda, mu] = at.y[..6] else { return Err(EvalError::Fatal { equation: 0 }) };
+    r[0] = at.yd[0] - vx - x * mu;
+    r[1] = at.yd[1] - vy - y * mu;
+    r[2] = BOB * at.yd[2] + x * lambda;
+    r[3] = BOB * (at.yd[3] + GRAVITY) + y * lambda;
+    r[4] = 0.5 * (x * x + y * y - 1.0);
+    r[5] = x * vx + y * vy;
+    Ok(())
+}
+
 /// A bob on a rod of 1 m in Cartesian coordinates, stabilized after Gear, Gupta and Leimkuhler (GGL): q̇ = v + Jᵀμ, m v̇ = −m g − Jᵀλ,
 /// g(q) = (q·q − 1)/2 = 0, J v = q·v = 0. Its design pose is horizontal.
 pub fn pendulum() -> Plant {
@@ -117,16 +129,7 @@ pub fn pendulum() -> Plant {
         inputs: Vec::new(),
         outputs: vec![Signal::new("bob.energy", "J", "")],
         limits: Vec::new(),
-        rows: |at, r| {
-            let [x, y, vx, vy, lambda, mu] = at.y[..6] else { return Err(EvalError::Fatal { equation: 0 }) };
-            r[0] = at.yd[0] - vx - x * mu;
-            r[1] = at.yd[1] - vy - y * mu;
-            r[2] = BOB * at.yd[2] + x * lambda;
-            r[3] = BOB * (at.yd[3] + GRAVITY) + y * lambda;
-            r[4] = 0.5 * (x * x + y * y - 1.0);
-            r[5] = x * vx + y * vy;
-            Ok(())
-        },
+        rows: pendulum_rows,
         signals: |at, z| {
             z[0] = BOB * (0.5 * (at.y[2] * at.y[2] + at.y[3] * at.y[3]) + GRAVITY * at.y[1]);
             Ok(())
@@ -154,6 +157,28 @@ pub fn pendulum() -> Plant {
             Ok(())
         },
         ends: None,
+    }
+}
+
+/// The same pendulum with a horizontal force on the bob and an additional weight, N.
+pub fn driven_pendulum() -> Plant {
+    let input = |name: &str| Input { signal: Signal::new(name, "N", ""), rate: None, nominal: 1.0, default: 0.0 };
+    Plant {
+        inputs: vec![input("bob.push"), input("bob.weight")],
+        rows: |at, r| {
+            pendulum_rows(at, r)?;
+            (r[2], r[3]) = (r[2] - at.u[0], r[3] + at.u[1]);
+            Ok(())
+        },
+        rates: |y, u, yd| {
+            let along = y[0] * u[0] - y[1] * (BOB * GRAVITY + u[1]);
+            let lambda = (BOB * (y[2] * y[2] + y[3] * y[3]) + along) / (y[0] * y[0] + y[1] * y[1]);
+            (y[4], y[5]) = (lambda, 0.0);
+            (yd[0], yd[1]) = (y[2], y[3]);
+            (yd[2], yd[3]) = ((u[0] - y[0] * lambda) / BOB, -GRAVITY - (u[1] + y[1] * lambda) / BOB);
+            Ok(())
+        },
+        ..pendulum()
     }
 }
 

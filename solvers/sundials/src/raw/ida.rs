@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::dense::{DenseSolver, matrix_entries_mut};
+use super::stuck::Stuck;
 use super::vector::{Vector, entries, entries_mut};
 use crate::guard::{FATAL, Guard};
 use problem::{EvalError, IntegrationEnding};
@@ -83,37 +84,6 @@ struct Call<'a> {
     /// The integrator itself.
     memory: *mut c_void,
     stuck: Stuck,
-}
-
-/// Watches for steps so short that rounding swallows them. A few are no harm, at a start for instance, but IDA goes on for ever.
-#[derive(Default)]
-struct Stuck {
-    /// The time that does not advance.
-    time: f64,
-    /// Evaluations there.
-    count: usize,
-    /// Whether any evaluation failed since.
-    failed: bool,
-}
-
-impl Stuck {
-    /// Evaluations without progress that end an integration.
-    const LIMIT: usize = 100;
-
-    /// Takes note of one more evaluation.
-    fn note(&mut self, time: f64, step: f64) {
-        if time - step != time {
-            return;
-        }
-        if time != self.time {
-            *self = Self { time, count: 0, failed: false };
-        }
-        self.count += 1;
-    }
-
-    fn for_ever(&self) -> bool {
-        self.count > Self::LIMIT
-    }
 }
 
 impl Memory {

@@ -6,9 +6,11 @@
 
 pub mod arkode;
 mod context;
+pub mod cvode;
 mod dense;
 pub mod ida;
 pub mod kinsol;
+mod stuck;
 mod vector;
 
 use std::ffi::{CStr, c_char, c_int};

@@ -1,15 +1,24 @@
 //! A motion over time from options: where it starts, which inputs act, which method follows it, and what is told about it.
 
+mod account;
+mod condition;
+mod start;
+mod table;
+
 use crate::Failure;
 use crate::arguments::{argument, unknown_name};
 use crate::backend::{self, Integrator};
-use crate::output::{Given, History, Outcome, small};
-use analyses::transient::{Cause, Constant, Drift, Method, Simulation, Start, Transient, TransientEnding, TransientError, Worst};
+use crate::interrupt::Interrupt;
+use crate::output::{History, Outcome, Progress, small};
+use crate::plan;
+pub use account::{DISSIPATED, ENERGY, SUPPLIED};
+use analyses::transient::{Cause, Method, Simulation, Start, Transient, TransientEnding, TransientError};
 use analyses::{Variable, Variables};
 use mbody::description::finding::Finding;
-use mbody::description::quantity::{Dimension, Dimensioned, dimension::Number, parse_quantity};
 use mbody::dynamics::{Formulation, System, TreePlant};
-use problem::{At, Dae, EquationKind, IntegrationOptions, Off, Outputs, Plant, Signal, UnknownKind};
+use problem::{Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
+use start::Beginning;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -17,8 +26,6 @@ use std::time::Instant;
 const DECAY: f64 = 10.0;
 /// The relative tolerance at which absolute tolerances are those that the signals declare.
 const USUAL_TOLERANCE: f64 = 1e-6;
-/// The total energy, beside the signals of the plant.
-pub const ENERGY: &str = "system.energy";
 /// What table and figure show of a vehicle, where the user does not choose.
 const VEHICLE: [&str; 7] = [
     "chassis.forward_speed",
@@ -44,24 +51,25 @@ pub struct Request {
     pub backend: String,
     /// Name of the formulation, where one is wanted.
     pub formulation: Option<String>,
-    /// `SIGNAL=VALUE` as typed.
+    /// The steady state to start from, where one is wanted.
+    pub steady: Option<plan::Request>,
+    /// `SIGNAL=VALUE` as typed: replaces values of the start, and inputs.
     pub given: Vec<String>,
+    /// Table of inputs over time.
+    pub signals: Option<PathBuf>,
+    /// `SIGNAL>VALUE` or `SIGNAL<VALUE` as typed: ends the motion.
+    pub until: Vec<String>,
+    /// What may ask for the end on the way.
+    pub interrupt: Option<&'static Interrupt>,
     /// Signals to be recorded; none: all.
     pub record: Vec<String>,
-}
-
-/// What `--given` says.
-struct GivenValues {
-    unknowns: Vec<(usize, f64)>,
-    inputs: Constant,
-    told: Vec<(Given, f64)>,
 }
 
 /// What is recorded.
 struct Recorded {
     variables: Vec<Variable>,
-    /// Place of the energy among them, where it is wanted.
-    energy: Option<usize>,
+    /// Places of energy and powers among them, where they are wanted, in the order of places.
+    accounts: Vec<(usize, usize)>,
 }
 
 /// Follows the motion.
@@ -81,18 +89,27 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
     }
     // all levels of the constraints stand in the rows of GGL, so the explicit form is judged by them
     let mut plant = TreePlant::in_formulation(system.clone(), if explicit { Formulation::Ggl } else { formulation });
-    let given = given(&request.given, &plant)?;
+    let mut beginning = match &request.steady {
+        Some(steady) => Beginning::steady(&plant, steady, system)?,
+        None => Beginning::stated(&plant),
+    };
+    if let Some(file) = &request.signals {
+        table::act(file, &plant, &[ENERGY, SUPPLIED, DISSIPATED], &mut beginning.inputs)?;
+    }
+    beginning.give(&request.given, &plant)?;
     let recorded = recorded(&request.record, &plant, system)?;
-    let n = system.unknowns().len();
     let mut transient = Transient::new(&plant, request.times.clone());
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
         absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),
         ..IntegrationOptions::default()
     };
-    transient.record = (0..n).map(Variable::Unknown).chain(recorded.variables.iter().copied()).collect();
+    transient.ends = condition::conditions(&request.until, &plant)?;
+    let (n, nu) = (system.unknowns().len(), system.inputs().len());
+    let rates = (0..n).map(Variable::Rate).chain((0..nu).map(Variable::Input));
+    transient.record = (0..n).map(Variable::Unknown).chain(rates).chain(recorded.variables.iter().copied()).collect();
     let began = Instant::now();
-    let simulation = follow(&mut transient, &mut plant, &given, &backend.make, &mut warnings)?;
+    let simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
     if let Some(near) = simulation.near_singular {
         warnings.push(format!(
@@ -101,23 +118,19 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
             near.time, near.independence
         ));
     }
-    let (energy, drift) = account(&simulation, system, &given.inputs.0);
-    let mut signals = simulation.trajectory.signals[n..].to_vec();
-    let mut columns = simulation.trajectory.columns[n..].to_vec();
-    if let Some(at) = recorded.energy {
-        signals.insert(at, energy_signal());
-        columns.insert(at, energy);
+    let accounts = account::account(&simulation, system);
+    let mut signals = simulation.trajectory.signals[2 * n + nu..].to_vec();
+    let mut columns = simulation.trajectory.columns[2 * n + nu..].to_vec();
+    for &(at, which) in &recorded.accounts {
+        signals.insert(at, account::signals()[which].clone());
+        columns.insert(at, accounts.columns[which].clone());
     }
-    let (ending, because) = match &simulation.ending {
-        TransientEnding::Failed { cause } => (simulation.ending.name(), Some(because(cause))),
-        TransientEnding::Reached => (simulation.ending.name(), None),
-        other => (other.name(), Some("it was stopped".to_owned())),
-    };
+    let (condition, because) = told(&simulation.ending, &transient.ends);
     let shown = if request.record.is_empty() { shown(&signals, &plant) } else { (0..signals.len()).collect() };
     Ok(History {
         model: model.to_owned(),
         axes: Default::default(),
-        given: given.told,
+        given: beginning.told,
         signals,
         shown,
         time: simulation.trajectory.time,
@@ -126,13 +139,15 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
             backend: backend.name,
             formulation: if explicit { "explicit" } else { formulation.name() },
             relative_tolerance: request.relative_tolerance,
-            ending,
+            ending: simulation.ending.name().to_owned(),
             because,
+            condition,
             duration: request.times.last().copied().unwrap_or_default(),
             statistics: simulation.statistics,
             wall,
-            drift,
+            drift: accounts.drift,
             limits: simulation.limits,
+            crossings: simulation.crossings,
         },
         warnings,
     })
@@ -154,73 +169,42 @@ fn formulation(name: Option<&str>) -> Result<Formulation, Failure> {
     found.ok_or_else(|| unknown_name("formulation", name, ("formulation", name), known()).into())
 }
 
-/// Values of unknowns and inputs.
-fn given(given: &[String], plant: &TreePlant) -> Result<GivenValues, Failure> {
-    let variables = Variables::of(plant);
-    let mut values = GivenValues { unknowns: Vec::new(), inputs: Constant::defaults(plant), told: Vec::new() };
-    for text in given {
-        let wrong = |code, why: String| argument("given", text, code, why);
-        let Some((name, value)) = text.split_once('=').map(|(n, v)| (n.trim(), v.trim())) else {
-            let finding = wrong("bad_argument", "this is not of the form SIGNAL=VALUE".to_owned());
-            return Err(finding.with_hint("for example `--given chassis.forward_speed=20m/s`").into());
-        };
-        let Some(variable) = variables.find(name) else {
-            return Err(unknown_name("given", text, ("signal", name), variables.names()).into());
-        };
-        let unit = variables.unit(variable);
-        let value = quantity(value, &unit).map_err(|(code, why, hint)| Failure::from(wrong(code, why).with_hint_from(hint)))?;
-        match variable {
-            Variable::Unknown(i) if plant.unknowns()[i].differential => match values.unknowns.iter_mut().find(|(u, _)| *u == i) {
-                Some(_) => return Err(wrong("given_twice", format!("`{name}` is given twice")).into()),
-                None => values.unknowns.push((i, value)),
-            },
-            Variable::Input(i) => values.inputs.0[i] = value,
-            _ => {
-                let finding = wrong("wrong_role", format!("`{name}` follows from the others, so it has no start value"));
-                return Err(finding.with_hint("coordinates, velocities, states and inputs can be given; see `fastbike info MODEL`").into());
-            }
+/// The condition that ended a motion, and the cause where that was not asked for.
+fn told(ending: &TransientEnding, ends: &[Limit]) -> (Option<String>, Option<String>) {
+    match ending {
+        TransientEnding::Reached => (None, None),
+        TransientEnding::Failed { cause } => (None, Some(because(cause))),
+        TransientEnding::Stopped => (None, Some("it was interrupted".to_owned())),
+        TransientEnding::Met { name, signal, threshold } => {
+            let met = ends.iter().find(|l| l.name == *name && l.signal == *signal && l.threshold == *threshold);
+            let sign = if met.is_some_and(|l| l.side == Side::Below) { "<" } else { ">" };
+            let passed = format!("`{signal}` {sign} {threshold:.6}");
+            let cause = (name != condition::UNTIL).then(|| format!("{}: {passed}", met.map_or("", |l| &l.about)));
+            (Some(passed), cause)
         }
-        values.told.push((Given::new(name, unit), value));
     }
-    Ok(values)
-}
-
-/// A value with an optional unit, in the unit of a signal.
-fn quantity(text: &str, unit: &str) -> Result<f64, (&'static str, String, Option<String>)> {
-    let unit = unit.replace("^2", "²").replace("^3", "³");
-    let dimension = if unit == "-" { Some(Number::DIMENSION) } else { Dimension::of_unit(&unit) };
-    match dimension {
-        Some(dimension) => parse_quantity(text, dimension).map_err(|e| (e.code(), e.to_string(), e.hint())),
-        // a unit without a name of its own: a bare number
-        None => match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(("bad_number", format!("`{text}` is not a number"), Some(format!("write a bare number in {unit}")))),
-        },
-    }
-}
-
-fn energy_signal() -> Signal {
-    Signal::new(ENERGY, "J", "total energy: of motion, of gravity, stored in elements")
 }
 
 /// Everything but the multipliers that only stabilize, or what `--record` names.
 fn recorded(record: &[String], plant: &TreePlant, system: &System) -> Result<Recorded, Failure> {
+    let beside = account::signals();
     if record.is_empty() {
         let all = analyses::transient::everything(plant).into_iter();
         let variables: Vec<Variable> = all.filter(|v| !matches!(v, Variable::Unknown(i) if *i >= system.unknowns().len())).collect();
-        return Ok(Recorded { energy: Some(variables.len()), variables });
+        let accounts = (0..beside.len()).map(|k| (variables.len() + k, k)).collect();
+        return Ok(Recorded { variables, accounts });
     }
     let names = Variables::of(plant);
-    let mut recorded = Recorded { variables: Vec::new(), energy: None };
+    let mut recorded = Recorded { variables: Vec::new(), accounts: Vec::new() };
     for (k, name) in record.iter().enumerate() {
         if record[..k].contains(name) {
             return Err(argument("record", name, "given_twice", format!("`{name}` is recorded twice")).into());
         }
-        match names.find(name) {
-            Some(variable) => recorded.variables.push(variable),
-            None if name == ENERGY => recorded.energy = Some(k),
-            None => {
-                let known = names.names().into_iter().chain([ENERGY]);
+        match (names.find(name), beside.iter().position(|s| s.name == *name)) {
+            (Some(variable), _) => recorded.variables.push(variable),
+            (None, Some(which)) => recorded.accounts.push((k, which)),
+            (None, None) => {
+                let known = names.names().into_iter().chain(beside.iter().map(|s| s.name.as_str()));
                 return Err(unknown_name("record", name, ("signal", name), known).into());
             }
         }
@@ -232,23 +216,31 @@ fn recorded(record: &[String], plant: &TreePlant, system: &System) -> Result<Rec
 fn follow(
     transient: &mut Transient,
     plant: &mut TreePlant,
-    given: &GivenValues,
-    make: &Integrator,
+    beginning: &Beginning,
+    (make, interrupt): (&Integrator, Option<&Interrupt>),
     warnings: &mut Vec<String>,
 ) -> Result<Simulation, Failure> {
-    let stated = Start::stated(plant);
-    for &(i, value) in &given.unknowns {
+    let stated = beginning.start.clone();
+    transient.start = stated.clone();
+    for &(i, value) in &beginning.given {
         (transient.start.y[i], transient.start.held[i]) = (value, true);
     }
-    let run = |transient: &Transient, plant: &mut TreePlant| match make {
-        Integrator::Implicit(make) => transient.run(plant, &given.inputs, Method::Dae(make().as_mut())),
-        Integrator::Explicit(make) => transient.run(plant, &given.inputs, Method::Ode(make().as_mut())),
+    let run = |transient: &Transient, plant: &mut TreePlant| {
+        let progress = Progress::new("run", transient.times.len());
+        let mut watcher = |_: f64| {
+            progress.advance();
+            if interrupt.is_some_and(Interrupt::is_set) { Flow::Stop } else { Flow::Continue }
+        };
+        match make {
+            Integrator::Implicit(make) => transient.run_watched(plant, &beginning.inputs, Method::Dae(make().as_mut()), &mut watcher),
+            Integrator::Explicit(make) => transient.run_watched(plant, &beginning.inputs, Method::Ode(make().as_mut()), &mut watcher),
+        }
     };
     let mut tried = run(transient, plant);
     let open = |e: &TransientError| matches!(e, TransientError::Open { .. } | TransientError::Velocity { .. });
-    if !given.unknowns.is_empty() && tried.as_ref().is_err_and(open) {
+    if !beginning.given.is_empty() && tried.as_ref().is_err_and(open) {
         let mut released = stated.clone();
-        released.hold(plant, &given.unknowns);
+        released.hold(plant, &beginning.given);
         let left: Vec<usize> = (0..stated.held.len()).filter(|&i| stated.held[i] && !released.held[i]).collect();
         if !left.is_empty() {
             transient.start = released;
@@ -257,15 +249,16 @@ fn follow(
             warnings.push(format!("`start` of the description does not go with what is given; it was left for {names}"));
         }
     }
-    tried.map_err(|error| cannot_start(&error, plant, &transient.start, given).into())
+    tried.map_err(|error| cannot_start(&error, plant, &transient.start, beginning).into())
 }
 
 /// Why a motion cannot start, with rows in mm and degrees and with what is held.
-fn cannot_start(error: &TransientError, plant: &dyn Plant, start: &Start, given: &GivenValues) -> Finding {
+fn cannot_start(error: &TransientError, plant: &dyn Plant, start: &Start, beginning: &Beginning) -> Finding {
     let (what, kind, rows) = match error {
         TransientError::Open { rows } => ("coordinates", UnknownKind::Position, rows),
         TransientError::Velocity { rows } => ("velocities", UnknownKind::Velocity, rows),
         TransientError::Times => return Finding::error("bad_range", error.to_string()),
+        TransientError::UnknownSignal { .. } => return Finding::error("unknown_signal", error.to_string()),
         TransientError::NotFinite { .. } => {
             return Finding::error("not_finite", error.to_string()).with_hint("give other start values with `--given SIGNAL=VALUE`");
         }
@@ -273,7 +266,7 @@ fn cannot_start(error: &TransientError, plant: &dyn Plant, start: &Start, given:
     let held: Vec<String> = (0..start.held.len())
         .filter(|&i| start.held[i] && plant.unknowns()[i].kind == kind)
         .map(|i| {
-            let whence = if given.unknowns.iter().any(|&(g, _)| g == i) { "--given" } else { "start" };
+            let whence = if beginning.given.iter().any(|&(g, _)| g == i) { "--given" } else { "start" };
             format!("`{}` ({whence})", plant.unknowns()[i].signal.name)
         })
         .collect();
@@ -302,37 +295,6 @@ fn because(cause: &Cause) -> String {
         Cause::Open { rows } => format!("the motion leaves the constraints; {}", violated(rows)),
         other => other.to_string(),
     }
-}
-
-/// Total energy at every sample, and the largest errors of the constraints on coordinates and on velocities: in all forms alike.
-fn account(simulation: &Simulation, system: &Arc<System>, inputs: &[f64]) -> (Vec<f64>, Drift) {
-    let mut plant = TreePlant::in_formulation(system.clone(), Formulation::Ggl);
-    let size = plant.unknowns().len();
-    let (mut y, still) = (vec![0.0; size], vec![0.0; size]);
-    let (mut residual, mut outputs) = (vec![0.0; size], vec![0.0; plant.outputs().len()]);
-    let (mut drift, mut energy) = (Drift::default(), Vec::new());
-    for (k, &time) in simulation.trajectory.time.iter().enumerate() {
-        for (y, column) in y.iter_mut().zip(&simulation.trajectory.columns[..system.unknowns().len()]) {
-            *y = column[k];
-        }
-        let at = At { time, y: &y, yd: &still, u: inputs };
-        let account = plant.account_at(at);
-        energy.push(account.kinetic + account.gravity + account.elements.stored);
-        // accelerations are not known here: only rows of constraints count
-        let _ = plant.evaluate(at, &mut residual, &mut outputs);
-        for (row, &by) in plant.equations().iter().zip(&residual) {
-            let worst = match row.kind {
-                EquationKind::Constraint => &mut drift.position,
-                EquationKind::VelocityConstraint => &mut drift.velocity,
-                _ => continue,
-            };
-            if by.is_finite() && worst.as_ref().is_none_or(|w: &Worst| by.abs() > w.off.by) {
-                let off = Off { row: row.name.clone(), by: by.abs(), unit: row.unit.to_string() };
-                *worst = Some(Worst { off, time });
-            }
-        }
-    }
-    (energy, drift)
 }
 
 /// A handful of the recorded signals: those of a vehicle, or coordinates that are not cyclic and velocities; the energy.

@@ -1,0 +1,308 @@
+//! One CVODE integrator of fixed size, with everything that it refers to.
+
+use super::context::Context;
+use super::dense::DenseSolver;
+use super::stuck::Stuck;
+use super::vector::{Vector, entries, entries_mut};
+use crate::guard::{FATAL, Guard};
+use problem::{EvalError, IntegrationEnding};
+use std::ffi::{c_int, c_long, c_void};
+use std::{ptr, slice};
+use sundials_sys::{
+    CV_ADAMS, CV_BDF, CV_CONV_FAILURE, CV_ERR_FAILURE, CV_FIRST_RHSFUNC_ERR, CV_ILL_INPUT, CV_LSETUP_FAIL, CV_LSOLVE_FAIL, CV_NORMAL,
+    CV_PROJFUNC_FAIL, CV_REPTD_PROJFUNC_ERR, CV_REPTD_RHSFUNC_ERR, CV_RHSFUNC_FAIL, CV_ROOT_RETURN, CV_RTFUNC_FAIL, CV_SUCCESS,
+    CV_TOO_CLOSE, CV_TOO_MUCH_ACC, CV_TOO_MUCH_WORK, CV_TSTOP_RETURN, CV_UNREC_RHSFUNC_ERR, CVode, CVodeCreate, CVodeFree,
+    CVodeGetCurrentStep, CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumJacEvals, CVodeGetNumNonlinSolvIters,
+    CVodeGetNumStepSolveFails, CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances,
+    CVodeSetInitStep, CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn,
+    CVodeSetNonlinearSolver, CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNNonlinSol_FixedPoint,
+    SUNNonlinSolFree, SUNNonlinearSolver,
+};
+
+/// What CVODE calls back.
+pub trait System {
+    /// Writes f(t, y).
+    fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes what leads from y to the nearest point of the manifold.
+    fn correction(&mut self, time: f64, y: &[f64], correction: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes the event functions.
+    fn events(&mut self, time: f64, y: &[f64], values: &mut [f64]) -> Result<(), EvalError>;
+}
+
+/// The family of formulas, with the iteration that goes with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Adams–Moulton, orders 1 to 12, solved by functional iteration.
+    Adams,
+    /// Backward differentiation, orders 1 to 5, solved by Newton's method with a matrix from difference quotients.
+    Bdf,
+}
+
+/// What one integration is asked for, beside the vectors that were written before.
+pub struct Request {
+    /// Time of the start.
+    pub time: f64,
+    /// Time that no step passes.
+    pub stop_time: f64,
+    /// Relative tolerance.
+    pub relative_tolerance: f64,
+    /// First step; zero leaves it to CVODE.
+    pub first_step: f64,
+    /// Longest step.
+    pub max_step: f64,
+    /// Largest number of steps in one advance, above zero.
+    pub max_steps: usize,
+    /// Number of event functions.
+    pub events: usize,
+}
+
+/// What CVODE counted since the start.
+#[derive(Default)]
+pub struct Statistics {
+    /// Steps taken.
+    pub steps: usize,
+    /// Steps rejected by the error test.
+    pub rejected: usize,
+    /// Steps rejected because the nonlinear iteration failed.
+    pub convergence_failures: usize,
+    /// Nonlinear iterations.
+    pub iterations: usize,
+    /// Matrices.
+    pub jacobians: usize,
+}
+
+/// Owner of one CVODE integrator and of all objects that it refers to.
+pub struct Memory {
+    raw: *mut c_void,
+    y: Vector,
+    tolerance: Vector,
+    found: Vec<c_int>,
+    _solver: Solver,
+    context: Context,
+}
+
+/// What solves the equations of a step.
+enum Solver {
+    Newton { _dense: DenseSolver },
+    Functional(SUNNonlinearSolver),
+}
+
+impl Drop for Solver {
+    fn drop(&mut self) {
+        if let Self::Functional(solver) = self {
+            // SAFETY: created by SUNNonlinSol_FixedPoint and freed once, after the integrator.
+            unsafe { SUNNonlinSolFree(*solver) };
+        }
+    }
+}
+
+// SAFETY: SUNDIALS ties nothing to a thread. The clones of the context, which are not thread-safe among each other, all
+// live in private fields of this one owner and move together.
+unsafe impl Send for Memory {}
+
+/// What the callbacks find behind the user data pointer while `CVode` runs.
+struct Call<'a> {
+    system: &'a mut dyn System,
+    events: usize,
+    guard: Guard,
+    /// The integrator itself.
+    memory: *mut c_void,
+    stuck: Stuck,
+}
+
+impl Memory {
+    /// An integrator for `size` unknowns, `size` above zero.
+    pub fn new(size: usize, family: Family) -> Self {
+        assert!(size > 0, "a system of equations has at least one unknown");
+        let context = Context::new();
+        let y = Vector::zeros(&context, size);
+        let tolerance = Vector::zeros(&context, size);
+        // SAFETY: context, vectors and solvers are alive and are owned by the result.
+        let (raw, solver) = unsafe {
+            let raw = CVodeCreate(if family == Family::Bdf { CV_BDF } else { CV_ADAMS }, context.raw());
+            assert!(!raw.is_null(), "out of memory while creating a CVODE integrator");
+            accept(CVodeInit(raw, Some(rates), 0.0, y.raw()), &context);
+            let solver = match family {
+                Family::Bdf => {
+                    let dense = DenseSolver::new(&context, &y);
+                    accept(CVodeSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
+                    accept(CVodeSetProjFn(raw, Some(correction)), &context);
+                    // the estimate of the error stays as it is
+                    accept(CVodeSetProjErrEst(raw, 0), &context);
+                    Solver::Newton { _dense: dense }
+                }
+                Family::Adams => {
+                    let functional = SUNNonlinSol_FixedPoint(y.raw(), 0, context.raw());
+                    assert!(!functional.is_null(), "out of memory while creating a SUNDIALS solver");
+                    accept(CVodeSetNonlinearSolver(raw, functional), &context);
+                    Solver::Functional(functional)
+                }
+            };
+            accept(CVodeSetNoInactiveRootWarn(raw), &context);
+            // they would be printed
+            accept(CVodeSetMaxHnilWarns(raw, -1), &context);
+            (raw, solver)
+        };
+        Self { raw, y, tolerance, found: Vec::new(), _solver: solver, context }
+    }
+
+    /// State at the time reached.
+    pub fn state(&self) -> &[f64] {
+        self.y.as_slice()
+    }
+
+    /// Absolute tolerances, to be written before a start.
+    pub fn tolerance_mut(&mut self) -> &mut [f64] {
+        self.tolerance.as_mut_slice()
+    }
+
+    /// Begins an integration. False where CVODE does not accept the tolerances.
+    pub fn start(&mut self, y: &[f64], request: &Request) -> bool {
+        let max_steps = c_long::try_from(request.max_steps).unwrap_or(c_long::MAX);
+        let events = c_int::try_from(request.events).expect("CVODE counts events with an int");
+        self.found.clear();
+        self.found.resize(request.events, 0);
+        self.y.as_mut_slice().copy_from_slice(y);
+        // SAFETY: all handles are owned by self; CVODE copies state and tolerances.
+        unsafe {
+            accept(CVodeReInit(self.raw, request.time, self.y.raw()), &self.context);
+            accept(CVodeSetStopTime(self.raw, request.stop_time), &self.context);
+            accept(CVodeSetInitStep(self.raw, request.first_step), &self.context);
+            accept(CVodeSetMaxStep(self.raw, request.max_step), &self.context);
+            accept(CVodeSetMaxNumSteps(self.raw, max_steps), &self.context);
+            // by way of none: for an unchanged number CVODE would keep from the last run which functions were still at zero
+            accept(CVodeRootInit(self.raw, 0, None), &self.context);
+            accept(CVodeRootInit(self.raw, events, Some(event_functions)), &self.context);
+            CVodeSVtolerances(self.raw, request.relative_tolerance, self.tolerance.raw()) == CV_SUCCESS
+        }
+    }
+
+    /// Integrates to `time` or to what ends the integration before, and returns the time reached. A panic of the system goes on here.
+    pub fn advance(&mut self, system: &mut dyn System, time: f64) -> (f64, Result<(), IntegrationEnding>) {
+        let mut call = Call { system, events: self.found.len(), guard: Guard::default(), memory: self.raw, stuck: Stuck::default() };
+        // where CVODE refuses the call it reports no time
+        let mut reached = self.time();
+        // SAFETY: all handles are owned by self; `call` outlives CVode and is forgotten by CVODE right after it.
+        let code = unsafe {
+            accept(CVodeSetUserData(self.raw, ptr::from_mut(&mut call).cast()), &self.context);
+            let code = CVode(self.raw, time, self.y.raw(), &mut reached, CV_NORMAL);
+            CVodeSetUserData(self.raw, ptr::null_mut());
+            code
+        };
+        let Call { stuck, guard, .. } = call;
+        let error = guard.release();
+        if stuck.for_ever() && !stuck.failed {
+            return (reached, Err(IntegrationEnding::ErrorTest));
+        }
+        if code == CV_RTFUNC_FAIL && self.statistics().steps > 0 {
+            reached = self.time();
+            // SAFETY: `raw` is a living integrator and the vector has its size.
+            unsafe { CVodeGetDky(self.raw, reached, 0, self.y.raw()) };
+        }
+        (reached, self.meaning(code, error))
+    }
+
+    /// What CVODE counted since the start.
+    pub fn statistics(&self) -> Statistics {
+        let count = |get: unsafe extern "C" fn(*mut c_void, *mut c_long) -> c_int| {
+            let mut count: c_long = 0;
+            // SAFETY: `raw` is a living integrator.
+            unsafe { get(self.raw, &mut count) };
+            usize::try_from(count).unwrap_or(0)
+        };
+        Statistics {
+            steps: count(CVodeGetNumSteps),
+            rejected: count(CVodeGetNumErrTestFails),
+            convergence_failures: count(CVodeGetNumStepSolveFails),
+            iterations: count(CVodeGetNumNonlinSolvIters),
+            jacobians: match self._solver {
+                Solver::Newton { .. } => count(CVodeGetNumJacEvals),
+                Solver::Functional(_) => 0,
+            },
+        }
+    }
+
+    /// End of the last step.
+    fn time(&self) -> f64 {
+        let mut time = 0.0;
+        // SAFETY: `raw` is a living integrator.
+        unsafe { CVodeGetCurrentTime(self.raw, &mut time) };
+        time
+    }
+
+    /// Meaning of a return code of `CVode`.
+    fn meaning(&mut self, code: c_int, error: Option<EvalError>) -> Result<(), IntegrationEnding> {
+        let evaluation = |otherwise| error.map_or(otherwise, IntegrationEnding::Evaluation);
+        Err(match code {
+            CV_SUCCESS | CV_TSTOP_RETURN => return Ok(()),
+            CV_ROOT_RETURN => self.event(),
+            CV_TOO_MUCH_WORK => IntegrationEnding::TooManySteps,
+            CV_ERR_FAILURE => IntegrationEnding::ErrorTest,
+            CV_CONV_FAILURE | CV_LSETUP_FAIL => evaluation(IntegrationEnding::Convergence),
+            CV_LSOLVE_FAIL => IntegrationEnding::Singular,
+            CV_RHSFUNC_FAIL
+            | CV_FIRST_RHSFUNC_ERR
+            | CV_REPTD_RHSFUNC_ERR
+            | CV_UNREC_RHSFUNC_ERR
+            | CV_RTFUNC_FAIL
+            | CV_PROJFUNC_FAIL
+            | CV_REPTD_PROJFUNC_ERR => evaluation(IntegrationEnding::Convergence),
+            CV_ILL_INPUT | CV_TOO_MUCH_ACC | CV_TOO_CLOSE => IntegrationEnding::Refused,
+            refusal => panic!("CVODE refused with code {refusal}: {}", self.context.message()),
+        })
+    }
+
+    /// The event function whose root was found, the first where there are several.
+    fn event(&mut self) -> IntegrationEnding {
+        // SAFETY: `raw` is a living integrator, and the array has one entry per event function.
+        unsafe { CVodeGetRootInfo(self.raw, self.found.as_mut_ptr()) };
+        let event = self.found.iter().position(|&direction| direction != 0).unwrap_or(0);
+        IntegrationEnding::Event { event, rising: self.found[event] > 0 }
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        // SAFETY: created by CVodeCreate and freed once, before the objects that it refers to.
+        unsafe { CVodeFree(&mut self.raw) }
+    }
+}
+
+/// Holds the set-up calls to their contract: they fail only for arguments that this module never passes, or without memory.
+fn accept(code: c_int, context: &Context) {
+    assert!(code == CV_SUCCESS, "CVODE refused its set-up with code {code}: {}", context.message());
+}
+
+extern "C" fn rates(time: f64, y: N_Vector, yd: N_Vector, call: *mut c_void) -> c_int {
+    // SAFETY: CVODE passes the pointer set in `advance` and two different serial vectors that it leaves alone meanwhile.
+    let (call, y, yd) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries_mut(yd)) };
+    let mut step = 0.0;
+    // SAFETY: the integrator that calls.
+    unsafe { CVodeGetCurrentStep(call.memory, &mut step) };
+    call.stuck.note(time, step);
+    if call.stuck.for_ever() {
+        return FATAL;
+    }
+    let system = &mut *call.system;
+    let code = call.guard.run(|| system.rates(time, y, yd));
+    call.stuck.failed |= code != 0;
+    code
+}
+
+extern "C" fn correction(time: f64, y: N_Vector, correction: N_Vector, _tolerance: f64, _error: N_Vector, call: *mut c_void) -> c_int {
+    // SAFETY: CVODE passes the pointer set in `advance` and two different serial vectors that it leaves alone meanwhile.
+    let (call, y, correction) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries_mut(correction)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.correction(time, y, correction))
+}
+
+extern "C" fn event_functions(time: f64, y: N_Vector, values: *mut f64, call: *mut c_void) -> c_int {
+    // SAFETY: CVODE passes the pointer set in `advance`, a serial vector and an array of as many entries as there are events.
+    let (call, y, values) = unsafe {
+        let call = &mut *call.cast::<Call<'_>>();
+        let events = call.events;
+        (call, entries(y), slice::from_raw_parts_mut(values, events))
+    };
+    let system = &mut *call.system;
+    call.guard.run(|| system.events(time, y, values))
+}
