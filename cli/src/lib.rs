@@ -9,6 +9,7 @@ pub mod commands;
 pub mod console;
 pub mod interrupt;
 pub mod library;
+pub mod maneuver;
 pub mod model;
 pub mod motion;
 pub mod output;

@@ -43,6 +43,30 @@ pub fn bundled_models() -> Vec<&'static str> {
     names
 }
 
+/// Names of all bundled maneuvers.
+pub fn bundled_maneuvers() -> Vec<&'static str> {
+    BUNDLED.iter().filter_map(|(path, _)| path.strip_prefix("maneuvers/")?.strip_suffix(".yaml")).collect()
+}
+
+/// File name and text of a maneuver: a bundled name, or a path that ends in `.yaml` or `.yml`.
+///
+/// # Errors
+/// There is none.
+pub fn maneuver(name: &str) -> Result<(String, Cow<'static, str>), Findings> {
+    let path = Path::new(name);
+    if path.extension().is_some_and(|e| e == "yaml" || e == "yml") {
+        readable(path, name)?;
+        let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        return Ok((file, Cow::Owned(fs::read_to_string(path).unwrap_or_default())));
+    }
+    if let Some(text) = bundled(&format!("maneuvers/{name}.yaml")) {
+        return Ok((format!("{name}.yaml"), Cow::Borrowed(text)));
+    }
+    let known = bundled_maneuvers();
+    let finding = Finding::error("unknown_maneuver", format!("there is no bundled maneuver `{name}`"));
+    Err(finding.with_hint_from(suggestion(name, known.iter().copied())).into())
+}
+
 impl Source {
     /// The model a user asked for: a bundled name, or a path that ends in `.yaml`, `.yml` or `.urdf`.
     pub fn find(model: &str) -> Result<Self, Findings> {

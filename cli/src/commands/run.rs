@@ -5,7 +5,7 @@ use crate::arguments::{ModelArguments, OutputArguments, argument};
 use crate::output::{Angles, History};
 use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::{Context, Exit, Failure, interrupt, model, motion, results};
+use crate::{Context, Exit, Failure, interrupt, maneuver, model, motion, results};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Severity;
 use mbody::description::quantity::dimension::{Frequency, Number, Time};
@@ -27,9 +27,14 @@ const MOST: f64 = 1e6;
 struct Arguments {
     #[command(flatten)]
     model: ModelArguments,
-    /// How long
-    #[arg(long, value_name = "TIME", default_value = "5s")]
-    duration: String,
+    /// A maneuver to ride: the name of a bundled one, or the path of a .yaml file
+    maneuver: Option<String>,
+    /// Override an entry of the maneuver: `speed=20`, `path.1.lane_change.width=-3m` (repeatable)
+    #[arg(long, value_name = "PATH=VALUE", requires = "maneuver", allow_hyphen_values = true)]
+    change: Vec<String>,
+    /// How long; left out: 5 s, or what the maneuver takes
+    #[arg(long, value_name = "TIME")]
+    duration: Option<String>,
     /// Samples per second; left out: 100 Hz, or more where the motion is short
     #[arg(long, value_name = "FREQUENCY")]
     rate: Option<String>,
@@ -78,23 +83,39 @@ fn command(command: Command) -> Command {
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let mut arguments: Arguments = read(matches)?;
     arguments.model.set.extend(arguments.steady.gear_override());
+    let maneuver = arguments.maneuver.as_deref().map(|name| maneuver::read(name, &arguments.change)).transpose()?;
+    if let Some(maneuver) = &maneuver {
+        if arguments.steady.moving() {
+            let finding = argument("speed", "", "given_twice", "a maneuver starts from straight running at its own speed".to_owned());
+            return Err(finding.with_hint("to change its speed, write `--change speed=20`").into());
+        }
+        arguments.steady.speed = Some(format!("{}", maneuver.course.speed.first()));
+    }
+    let duration = match (&arguments.duration, &maneuver) {
+        (Some(duration), _) => duration.clone(),
+        (None, Some(maneuver)) => format!("{:.3}", maneuver.duration.unwrap_or_else(|| 1.2 * maneuver.course.duration() + 1.0)),
+        (None, None) => "5s".to_owned(),
+    };
     // the signals shown are our choice
     let chosen = arguments.record.is_empty();
+    let until = maneuver.iter().flat_map(|m| m.until.clone()).collect::<Vec<_>>();
     let request = motion::Request {
-        times: times(&arguments.duration, arguments.rate.as_deref())?,
+        times: times(&duration, arguments.rate.as_deref())?,
         relative_tolerance: tolerance(&arguments.rtol)?,
         backend: arguments.backend,
         formulation: arguments.formulation,
         steady: arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?,
         given: arguments.given,
         signals: arguments.signals,
-        until: arguments.until,
+        until: arguments.until.iter().cloned().chain(until).collect(),
         interrupt: (!context.console.is_memory()).then(interrupt::flag),
         record: arguments.record,
     };
     arguments.output.check()?;
     let loaded = model::load(&arguments.model, context)?;
-    let mut history = motion::run(&request, &loaded.assembled.system, &loaded.name)?;
+    let system = &loaded.assembled.system;
+    let ride = maneuver.map(|maneuver| maneuver::ride(maneuver, system)).transpose()?;
+    let mut history = motion::run(&request, system, &loaded.name, ride)?;
     history.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(|f| f.to_string()));
     let (reached, outcome) = (history.outcome.statistics.time, &history.outcome);
     let ended =

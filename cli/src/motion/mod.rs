@@ -10,13 +10,14 @@ use crate::arguments::{argument, unknown_name};
 use crate::backend::{self, Integrator};
 use crate::interrupt::Interrupt;
 use crate::output::{History, Outcome, Progress, small};
+use crate::maneuver::Ride;
 use crate::plan;
 pub use account::{DISSIPATED, ENERGY, SUPPLIED};
 use analyses::transient::{Cause, Method, Simulation, Start, Transient, TransientEnding, TransientError};
-use analyses::{Variable, Variables};
+use analyses::{ClosedLoop, Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
-use problem::{Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
+use problem::{Controller, Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -72,11 +73,14 @@ struct Recorded {
     accounts: Vec<(usize, usize)>,
 }
 
-/// Follows the motion.
+/// A tree under the command of whoever rides it.
+type Ridden = ClosedLoop<TreePlant>;
+
+/// Follows the motion, ridden or not.
 ///
 /// # Errors
 /// The input is wrong, or the start cannot satisfy the constraints; a motion that ends early is no error.
-pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<History, Failure> {
+pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ride>) -> Result<History, Failure> {
     let Some(backend) = backend::integration(&request.backend) else {
         let known = backend::INTEGRATION.iter().map(|b| b.name);
         return Err(unknown_name("backend", &request.backend, ("backend", &request.backend), known).into());
@@ -88,7 +92,12 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
         warnings.push(format!("`{}` takes the explicit form; `--formulation` changes nothing", backend.name));
     }
     // all levels of the constraints stand in the rows of GGL, so the explicit form is judged by them
-    let mut plant = TreePlant::in_formulation(system.clone(), if explicit { Formulation::Ggl } else { formulation });
+    let tree = TreePlant::in_formulation(system.clone(), if explicit { Formulation::Ggl } else { formulation });
+    let (controllers, goal) = ride.map_or((Vec::new(), None), |ride| {
+        warnings.extend(ride.warnings);
+        (ride.rider.map(|rider| Box::new(rider) as Box<dyn Controller>).into_iter().collect(), ride.goal)
+    });
+    let mut plant = ClosedLoop::new(tree, controllers).map_err(|e| Finding::error("signal_clash", e.to_string()))?;
     let mut beginning = match &request.steady {
         Some(steady) => Beginning::steady(&plant, steady, system)?,
         None => Beginning::stated(&plant),
@@ -105,8 +114,12 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
         ..IntegrationOptions::default()
     };
     transient.ends = condition::conditions(&request.until, &plant)?;
+    transient.ends.extend(goal);
     let (n, nu) = (system.unknowns().len(), system.inputs().len());
-    let rates = (0..n).map(Variable::Rate).chain((0..nu).map(Variable::Input));
+    // what is commanded is an output of the whole
+    let names = Variables::of(&plant);
+    let commanded = system.inputs().iter().map(|i| names.find(&i.signal.name).unwrap_or(Variable::Input(0)));
+    let rates = (0..n).map(Variable::Rate).chain(commanded);
     transient.record = (0..n).map(Variable::Unknown).chain(rates).chain(recorded.variables.iter().copied()).collect();
     let began = Instant::now();
     let simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
@@ -179,14 +192,14 @@ fn told(ending: &TransientEnding, ends: &[Limit]) -> (Option<String>, Option<Str
             let met = ends.iter().find(|l| l.name == *name && l.signal == *signal && l.threshold == *threshold);
             let sign = if met.is_some_and(|l| l.side == Side::Below) { "<" } else { ">" };
             let passed = format!("`{signal}` {sign} {threshold:.6}");
-            let cause = (name != condition::UNTIL).then(|| format!("{}: {passed}", met.map_or("", |l| &l.about)));
+            let cause = (name != condition::UNTIL && name != crate::maneuver::GOAL).then(|| format!("{}: {passed}", met.map_or("", |l| &l.about)));
             (Some(passed), cause)
         }
     }
 }
 
 /// Everything but the multipliers that only stabilize, or what `--record` names.
-fn recorded(record: &[String], plant: &TreePlant, system: &System) -> Result<Recorded, Failure> {
+fn recorded(record: &[String], plant: &Ridden, system: &System) -> Result<Recorded, Failure> {
     let beside = account::signals();
     if record.is_empty() {
         let all = analyses::transient::everything(plant).into_iter();
@@ -215,7 +228,7 @@ fn recorded(record: &[String], plant: &TreePlant, system: &System) -> Result<Rec
 /// Runs it from a start that has all stated and all given values; where these do not go together, from the given ones alone.
 fn follow(
     transient: &mut Transient,
-    plant: &mut TreePlant,
+    plant: &mut Ridden,
     beginning: &Beginning,
     (make, interrupt): (&Integrator, Option<&Interrupt>),
     warnings: &mut Vec<String>,
@@ -225,7 +238,7 @@ fn follow(
     for &(i, value) in &beginning.given {
         (transient.start.y[i], transient.start.held[i]) = (value, true);
     }
-    let run = |transient: &Transient, plant: &mut TreePlant| {
+    let run = |transient: &Transient, plant: &mut Ridden| {
         let progress = Progress::new("run", transient.times.len());
         let mut watcher = |_: f64| {
             progress.advance();

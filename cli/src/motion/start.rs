@@ -7,8 +7,8 @@ use analyses::transient::{Driven, Start};
 use analyses::{Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::description::quantity::{Dimension, Dimensioned, dimension::Number, parse_quantity};
-use mbody::dynamics::{System, TreePlant};
-use problem::{Dae, Ending, Plant};
+use mbody::dynamics::System;
+use problem::{Ending, Plant};
 use std::sync::Arc;
 
 /// Solver of the steady state.
@@ -50,11 +50,13 @@ impl Beginning {
         if point.values.is_empty() || point.ending != Ending::Reached {
             return Err(Failure::Unreached(format!("there is no steady state to start from: {}", cause(&point.ending))));
         }
-        let (n, nu) = (system.unknowns().len(), system.inputs().len());
-        let mut start = Start { y: vec![0.0; plant.unknowns().len()], held: vec![false; plant.unknowns().len()] };
-        // behind the unknowns of a steady state stand the multipliers that stabilize constraints
+        let n = system.unknowns().len();
+        // behind the unknowns of a steady state stand the multipliers that stabilize constraints, and the states of who rides
+        let mut start = Start::stated(plant);
+        start.held.fill(false);
         start.y[..n].copy_from_slice(&point.values[..n]);
-        let inputs = Driven::new(point.values[n..n + nu].to_vec());
+        let value = |name: &str| system.inputs().iter().position(|i| i.signal.name == name).map_or(0.0, |k| point.values[n + k]);
+        let inputs = Driven::new(plant.inputs().iter().map(|i| value(&i.signal.name)).collect());
         Ok(Self { start, given: Vec::new(), inputs, told: found.given.into_iter().zip(point.given.clone()).collect() })
     }
 
@@ -62,7 +64,7 @@ impl Beginning {
     ///
     /// # Errors
     /// A signal that is not there or follows from others, a value that cannot be read.
-    pub fn give(&mut self, given: &[String], plant: &TreePlant) -> Result<(), Failure> {
+    pub fn give(&mut self, given: &[String], plant: &dyn Plant) -> Result<(), Failure> {
         let variables = Variables::of(plant);
         for text in given {
             let wrong = |code, why: String| argument("given", text, code, why);
