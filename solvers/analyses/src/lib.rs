@@ -1,21 +1,27 @@
 //! Analyses as services: they know signals and problem traits, never an engine and never a trade.
 //!
 //! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them, [`mod@eigen`] their eigenvalues, which
-//! [`modes`] names and follows along a sweep; [`transient`] follows a motion over time; [`expression`] is the small language in which
-//! conditions are written.
+//! [`modes`] names and follows along a sweep; [`mod@frequency_response`] answers inputs that oscillate, [`mod@comfort`] random ones, with the
+//! [`weighting`] of a person; [`transient`] follows a motion over time; [`expression`] is the small language in which conditions are written.
 
 #![allow(non_snake_case)]
 
+pub mod comfort;
 pub mod eigen;
 pub mod expression;
+pub mod frequency_response;
 pub mod linearize;
 pub mod modes;
+pub mod random;
 pub mod transient;
 pub mod trim;
 pub mod variable;
+pub mod weighting;
 
+pub use comfort::{Comfort, comfort};
 pub use eigen::{EigenError, Spectrum, eigen};
 pub use expression::{Expression, ExpressionError};
+pub use frequency_response::{Excitation, FrequencyResponse, FrequencyResponseError};
 pub use linearize::{LinearModel, LinearizeError, linearize};
 pub use modes::{Mode, Modes};
 pub use variable::{Variable, Variables};
