@@ -14,6 +14,7 @@ pub mod output;
 pub mod plan;
 pub mod plot;
 pub mod report;
+pub mod responses;
 pub mod results;
 pub mod small_motions;
 pub mod steady;

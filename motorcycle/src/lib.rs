@@ -10,6 +10,7 @@ pub mod drivetrain;
 pub mod handling;
 mod kinds;
 mod planar;
+pub mod road;
 mod signal;
 pub mod steering;
 pub mod suspension;

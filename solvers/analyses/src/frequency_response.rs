@@ -156,7 +156,8 @@ impl FrequencyResponse {
 
         let reduced = whole.reduced()?;
         let of_rates = |m: &DMatrix<f64>| {
-            let column = |&k: &usize| model.inputs[k].rate.map_or_else(|| DMatrix::zeros(m.nrows(), 1), |rate| m.columns(rate, 1).into_owned());
+            let column =
+                |&k: &usize| model.inputs[k].rate.map_or_else(|| DMatrix::zeros(m.nrows(), 1), |rate| m.columns(rate, 1).into_owned());
             let columns: Vec<DMatrix<f64>> = columns.iter().map(column).collect();
             DMatrix::from_fn(m.nrows(), columns.len(), |i, k| columns[k][i])
         };

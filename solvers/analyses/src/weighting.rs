@@ -45,12 +45,8 @@ const F2: f64 = 100.0;
 const Q4: f64 = 0.63;
 
 /// Vertical vibration of a seat.
-pub const WK: Weighting = Weighting {
-    name: "Wk",
-    about: "vertical vibration of a seat",
-    f3: 12.5,
-    step: Some(Step { f5: 2.37, q5: 0.91, f6: 3.35, q6: 0.91 }),
-};
+pub const WK: Weighting =
+    Weighting { name: "Wk", about: "vertical vibration of a seat", f3: 12.5, step: Some(Step { f5: 2.37, q5: 0.91, f6: 3.35, q6: 0.91 }) };
 /// Horizontal vibration of a seat.
 pub const WD: Weighting = Weighting { name: "Wd", about: "horizontal vibration of a seat", f3: 2.0, step: None };
 /// Rotational vibration of a seat.
