@@ -21,6 +21,7 @@
 
 use crate::LinearModel;
 use crate::eigen::{balance, similar};
+use crate::variable::rate_unit;
 use nalgebra::{Complex, DMatrix};
 use problem::Signal;
 use thiserror::Error;
@@ -354,7 +355,7 @@ impl Row {
             Place::Cyclic(k) => &model.unknown_signals[model.cyclic.unknowns[k]],
         };
         match self.rate {
-            true => Signal::new(format!("rate({})", signal.name), format!("{}/s", signal.unit), format!("rate of: {}", signal.about)),
+            true => Signal::new(format!("rate({})", signal.name), rate_unit(&signal.unit), format!("rate of: {}", signal.about)),
             false => signal.clone(),
         }
     }
