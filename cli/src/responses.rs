@@ -178,7 +178,11 @@ fn unstable(model: &LinearModel) -> bool {
 
 /// What a reader of responses at unstable points has to know.
 pub fn forced(unstable: usize, points: usize) -> Option<String> {
-    let which = if unstable == points { "the steady states are".to_owned() } else { format!("{unstable} of {points} steady states are") };
-    let motion = "responses there are the motion that whoever stabilizes them has to sustain";
+    let which = match (unstable, points) {
+        (1, 1) => "the steady state is".to_owned(),
+        (1, _) => format!("1 of {points} steady states is"),
+        (_, _) => format!("{unstable} of {points} steady states are"),
+    };
+    let motion = "the response there is the motion that whoever stabilizes it has to sustain";
     (unstable > 0).then(|| format!("{which} unstable: {motion}"))
 }

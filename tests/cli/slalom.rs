@@ -22,9 +22,10 @@ fn every_speed_has_its_frequency() {
 #[test]
 fn unstable_speeds_are_told() {
     let answer = fastbike(&CONES);
-    assert_eq!(answer.status, 0);
+    assert_eq!((answer.status, answer.stderr.as_str()), (0, ""));
     assert!(answer.stdout.contains("3.30038") && answer.stdout.contains("deg/(N m)"), "{}", answer.stdout);
-    assert!(answer.stderr.contains("1 of 3 steady states are unstable"), "{}", answer.stderr);
+    let slow = fastbike(&["slalom", "ref11", "--speed", "4,8"]);
+    assert!(slow.status == 0 && slow.stderr.contains("1 of 2 steady states is unstable"), "{}", slow.stderr);
 }
 
 #[test]

@@ -115,7 +115,7 @@ fn classes(text: &str) -> Result<Vec<Class>, Failure> {
 fn outputs(point: &str, system: &System) -> Result<Vec<String>, Failure> {
     let sensors = || system.outputs().iter().filter_map(|s| s.name.strip_suffix(".acceleration_z"));
     if !sensors().any(|sensor| sensor == point) {
-        let finding = unknown_name("point", point, ("point with an acceleration", point), sensors());
+        let finding = unknown_name("point", point, ("point sensor", point), sensors());
         let listed: Vec<String> = sensors().map(|s| format!("`{s}`")).collect();
         let hint = match listed.is_empty() {
             true => "add an element of the kind `point_sensor` to the description".to_owned(),
