@@ -79,7 +79,8 @@ pub fn unknown_name<'a>(option: &str, text: &str, (noun, name): (&str, &str), kn
     argument(option, text, code, format!("there is no {noun} `{name}`")).with_hint_from(suggestion(name, known))
 }
 
-/// One value or several: `30`, `108km/h`, `10..60:2` (start..end:step), `10,20,30`. Values are SI.
+/// One value or several: `30`, `108km/h`, `10..60:2` (start..end:step), `0.1..30:log200` (so many values, in equal ratios), `10,20,30`.
+/// Values are SI.
 ///
 /// # Errors
 /// Names the part that cannot be read, the unit that does not fit, or a step that leads nowhere.
@@ -98,7 +99,11 @@ pub fn sweep<D: Dimensioned>(option: &str, text: &str) -> Result<Vec<f64>, Failu
     let Some((end, step)) = rest.split_once(':') else {
         return Err(wrong("the range has no step").with_hint("a range is written start..end:step, for example 10..60:2").into());
     };
-    let (start, end, step) = (one(start)?, one(end)?, one(step)?);
+    let (start, end) = (one(start)?, one(end)?);
+    if let Some(count) = step.trim().strip_prefix("log") {
+        return logarithmic((start, end), count).map_err(|why| wrong(&why).with_hint("for example 0.1..30:log200").into());
+    }
+    let step = one(step)?;
     if step == 0.0 || (end - start) * step < 0.0 {
         return Err(wrong("the step does not lead from the start to the end").into());
     }
@@ -110,10 +115,23 @@ pub fn sweep<D: Dimensioned>(option: &str, text: &str) -> Result<Vec<f64>, Failu
     Ok((0..=count as usize).map(|i| start + i as f64 * step).collect())
 }
 
+/// Values in equal ratios, both ends included.
+fn logarithmic((start, end): (f64, f64), count: &str) -> Result<Vec<f64>, String> {
+    let Some(count) = count.trim().parse::<u32>().ok().filter(|n| (2..=1_000_000).contains(n)) else {
+        return Err(format!("`{count}` is no number of values from 2 to 1000000"));
+    };
+    if start <= 0.0 || end <= 0.0 || start == end {
+        return Err("a range in equal ratios has two different ends above zero".to_owned());
+    }
+    let last = count - 1;
+    // the ends are met to the last digit
+    Ok((0..count).map(|k| if k == last { end } else { start * (end / start).powf(f64::from(k) / f64::from(last)) }).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mbody::description::quantity::dimension::{Angle, Speed};
+    use mbody::description::quantity::dimension::{Angle, Frequency, Speed};
 
     #[test]
     fn values_lists_and_ranges_are_read_with_units() {
@@ -122,6 +140,7 @@ mod tests {
         assert_eq!(sweep::<Speed>("speed", "10..60:25").unwrap(), [10.0, 35.0, 60.0]);
         assert_eq!(sweep::<Speed>("speed", "0..1:0.1").unwrap().len(), 11);
         assert_eq!(sweep::<Speed>("speed", "-1..-3:-1").unwrap(), [-1.0, -2.0, -3.0]);
+        assert_eq!(sweep::<Frequency>("frequency", "0.1..10 Hz:log3").unwrap(), [0.1, 1.0, 10.0]);
         assert!((sweep::<Angle>("lean", "0deg..50deg:5deg").unwrap()[10] - 50f64.to_radians()).abs() < 1e-12);
     }
 
@@ -131,6 +150,8 @@ mod tests {
         assert!(message("30kg").contains("a speed"), "{}", message("30kg"));
         assert!(message("10..60").contains("start..end:step"));
         assert!(message("10..60:-1").contains("does not lead"));
+        assert!(message("0..60:log10").contains("above zero"));
+        assert!(message("1..60:log1").contains("no number of values"));
         assert!(message("fast").contains("--speed fast"));
     }
 }

@@ -16,6 +16,7 @@ pub mod output;
 pub mod plan;
 pub mod plot;
 pub mod report;
+pub mod responses;
 pub mod results;
 pub mod rider;
 pub mod small_motions;

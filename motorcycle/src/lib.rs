@@ -11,6 +11,7 @@ pub mod handling;
 pub mod maneuver;
 mod kinds;
 mod planar;
+pub mod road;
 mod signal;
 pub mod rider;
 pub mod steering;

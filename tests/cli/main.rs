@@ -3,13 +3,16 @@
 //! Numbers are parsed and compared as numbers; words only where other programs rely on them.
 
 mod check;
+mod comfort;
 mod dynamics;
+mod frf;
 mod info;
 mod linearize;
 mod map;
 mod modes;
 mod run;
 mod schema;
+mod slalom;
 mod trim;
 
 use fastbike::console::Captured;

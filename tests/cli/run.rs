@@ -47,7 +47,7 @@ fn csv_has_units_in_its_header_and_every_sample() {
     let csv = fastbike(&with(&with(&SQUEEZER, &record), &["--format", "csv", "--rate", "1kHz"]));
     assert_eq!((csv.status, csv.stderr.as_str()), (0, ""));
     let mut lines = csv.stdout.lines();
-    assert_eq!(lines.next(), Some("time [s],beta.angle [rad],rate(beta.rate) [rad/s/s],system.energy [J]"));
+    assert_eq!(lines.next(), Some("time [s],beta.angle [rad],rate(beta.rate) [rad/s²],system.energy [J]"));
     let rows: Vec<Vec<f64>> = lines.map(|l| l.split(',').map(|c| c.parse().expect("a number")).collect()).collect();
     assert_eq!((rows.len(), rows[0][1], rows[30][0]), (31, -0.061_713_890_014_276_45, 0.03));
     // published: a crank acceleration of 14222 rad/s² at the start

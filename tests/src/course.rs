@@ -3,7 +3,7 @@
 use crate::agreement::{Agreement, absolute};
 use crate::tree::Named;
 use analyses::Variables;
-use analyses::transient::{Constant, Method, Simulation, Start, Transient, Worst};
+use analyses::transient::{Constant, Inputs, Method, Simulation, Start, Transient, Worst};
 use fastbike::library::Source;
 use fastbike::standard_kinds;
 use mbody::assembly::{BaseDescription, assemble, assemble_urdf};
@@ -66,6 +66,14 @@ impl Course {
     /// # Panics
     /// It cannot start.
     pub fn along(system: Arc<System>, given: &[Named], times: &[f64], by: By) -> Self {
+        Self::driven(system, given, times, by, None)
+    }
+
+    /// The same with inputs that move.
+    ///
+    /// # Panics
+    /// It cannot start.
+    pub fn driven(system: Arc<System>, given: &[Named], times: &[f64], by: By, moving: Option<&dyn Inputs>) -> Self {
         let mut plant = TreePlant::in_formulation(system, Formulation::Ggl);
         let mut u: Vec<f64> = plant.inputs().iter().map(|i| i.default).collect();
         let mut held = Vec::new();
@@ -84,7 +92,8 @@ impl Course {
             By::Erk(..) => Method::Ode(&mut erk),
             By::Ida(..) => Method::Dae(&mut ida),
         };
-        let simulation = transient.run(&mut plant, &Constant(u.clone()), method).unwrap_or_else(|error| panic!("{error}"));
+        let constant = Constant(u.clone());
+        let simulation = transient.run(&mut plant, moving.unwrap_or(&constant), method).unwrap_or_else(|error| panic!("{error}"));
         Self { plant, simulation, u }
     }
 

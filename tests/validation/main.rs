@@ -11,6 +11,7 @@ mod mechanisms;
 mod motions;
 mod moto11;
 mod ref11;
+mod responses;
 mod rolling_disc;
 mod sel04;
 
@@ -22,7 +23,7 @@ fn the_table_of_evidence_is_up_to_date() {
     let rows: Vec<_> = vehicles
         .iter()
         .chain(bicycle::EVIDENCE)
-        .chain([&mechanisms::EVIDENCE, &motions::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE])
+        .chain([&mechanisms::EVIDENCE, &motions::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE, &responses::EVIDENCE])
         .copied()
         .collect();
     evidence::hold("validation", &rows);

@@ -11,6 +11,7 @@ mod linear;
 mod mechanisms;
 mod motion;
 mod recorded;
+mod responses;
 mod trim;
 
 use validation::evidence;
@@ -26,6 +27,7 @@ fn the_table_of_evidence_is_up_to_date() {
             mechanisms::EVIDENCE,
             trim::EVIDENCE,
             linear::EVIDENCE,
+            responses::EVIDENCE,
             bundled::EVIDENCE,
             invariance::EVIDENCE,
         ],

@@ -1,13 +1,16 @@
 //! Commands: one file and one row each.
 
 mod check;
+mod comfort;
 mod dynamics;
+mod frf;
 mod info;
 mod linearize;
 mod map;
 mod modes;
 mod run;
 mod schema;
+mod slalom;
 mod trim;
 
 use crate::{Context, Exit, Failure};
@@ -24,8 +27,20 @@ pub struct Kind {
 }
 
 /// All commands, in the order of the help.
-pub const KINDS: &[Kind] =
-    &[trim::KIND, map::KIND, modes::KIND, linearize::KIND, run::KIND, info::KIND, check::KIND, dynamics::KIND, schema::KIND];
+pub const KINDS: &[Kind] = &[
+    trim::KIND,
+    map::KIND,
+    modes::KIND,
+    frf::KIND,
+    slalom::KIND,
+    comfort::KIND,
+    linearize::KIND,
+    run::KIND,
+    info::KIND,
+    check::KIND,
+    dynamics::KIND,
+    schema::KIND,
+];
 
 /// Version, profile, processor level and SUNDIALS version.
 fn version() -> String {

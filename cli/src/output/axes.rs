@@ -70,6 +70,13 @@ const RULES: &[(&str, &str, f64)] = &[
     ("*_tire", "aligning_moment", -1.0),
     ("*_road", "height", -1.0),
     ("*_road", "height_*", -1.0),
+    ("", "road", -1.0),
+    // sensors of points
+    ("*", "height", -1.0),
+    ("*", "velocity_y", -1.0),
+    ("*", "velocity_z", -1.0),
+    ("*", "acceleration_y", -1.0),
+    ("*", "acceleration_z", -1.0),
     ("wind", "lateral", -1.0),
     ("*", "lateral_*", -1.0),
     ("*", "*_lateral", -1.0),
@@ -84,8 +91,9 @@ const RULES: &[(&str, &str, f64)] = &[
     ("", "steer_angle", -1.0),
 ];
 
-/// What a value of the signal `name` is multiplied with to change between ISO and SAE axes: +1 or −1.
+/// What a value of the signal `name` is multiplied with to change between ISO and SAE axes: +1 or −1; a rate turns with its signal.
 pub(super) fn factor(name: &str) -> f64 {
+    let name = name.strip_prefix("rate(").and_then(|rest| rest.strip_suffix(')')).unwrap_or(name);
     let (element, quantity) = name.rsplit_once('.').unwrap_or(("", name));
     RULES.iter().find(|(e, q, _)| fits(e, element) && fits(q, quantity)).map_or(1.0, |rule| rule.2)
 }
@@ -110,11 +118,12 @@ mod tests {
         let same = "chassis.roll chassis.roll_rate chassis.x chassis.forward_speed fork.travel fork.rate swingarm.angle \
             front_tire.normal_force rear_tire.longitudinal_force rear_tire.overturning_moment front_tire.slip_angle \
             front_tire.longitudinal_slip rear_tire.camber rear_tire.friction_use chain.upper_tension drive.torque front_brake.torque \
+            saddle.point_speed saddle.velocity_x saddle.acceleration_x rate(chassis.roll_rate) \
             engine.speed drivetrain.gear swingarm.force_x swingarm.moment_x steer.torque_normalized speed lean acceleration";
         let changed = "chassis.y chassis.heave chassis.heave_rate chassis.lateral_speed chassis.pitch chassis.pitch_rate chassis.yaw \
             chassis.yaw_rate chassis.yaw_acceleration steer.angle steer.rate steer.torque front_wheel.spin_rate rear_wheel.spin_rate \
             front_tire.lateral_force rear_tire.rolling_moment rear_tire.aligning_moment front_tire.carcass_lateral front_road.height \
-            rear_road.height_rate wind.lateral swingarm.force_y swingarm.force_z swingarm.moment_y swingarm.moment_z \
+            rear_road.height_rate road saddle.height saddle.velocity_y saddle.acceleration_z rate(chassis.pitch_rate) wind.lateral swingarm.force_y swingarm.force_z swingarm.moment_y swingarm.moment_z \
             lateral_acceleration curvature radius yaw_rate steer_torque";
         for name in same.split_whitespace() {
             assert_eq!(factor(name), 1.0, "{name}");

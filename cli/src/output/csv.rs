@@ -3,10 +3,10 @@
 //! The first line names the columns: `given.<name>` for what was prescribed, `ending`, `iterations`, `residual`, then the signals under the
 //! names that `units` lists in the JSON output. There is no line of units, so that every reader of CSV takes the columns as numbers.
 //! A value that is not finite or was not computed is an empty cell. Modes have a line each, linear
-//! models one for every entry that is not zero. With `--versus`, a first column `variant` tells the rows apart.
+//! models one for every entry that is not zero, frequency responses one for every frequency. With `--versus`, a first column `variant` tells the rows apart.
 
 use super::report::{Beside, Report};
-use super::{Kind, Options, history, linear, modes};
+use super::{Kind, Options, comfort, history, linear, modes, responses};
 use std::io;
 
 pub(super) const KIND: Kind =
@@ -17,6 +17,8 @@ fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()
         Beside::Nothing => {}
         Beside::Linear(linear) => return linear::write_csv(report, linear, out),
         Beside::Modes(modes) => return modes::write_csv(report, modes, out),
+        Beside::Responses(responses) => return responses::write_csv(report, responses, out),
+        Beside::Comfort(comfort) => return comfort::write_csv(report, comfort, out),
     }
     let mut table = ::csv::Writer::from_writer(out);
     let given = report.given.iter().map(|g| format!("given.{}", g.name));

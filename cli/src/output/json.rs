@@ -3,7 +3,7 @@
 //! A value that is not finite is `null`; `signals` is empty where nothing was computed.
 
 use super::report::{Beside, Point, Report};
-use super::{Kind, Options, history, linear, modes};
+use super::{Kind, Options, comfort, history, linear, modes, responses};
 use problem::Ending;
 use serde_json::{Map, Value, json};
 use std::io;
@@ -34,6 +34,8 @@ pub(super) fn object(report: &Report) -> Value {
         Beside::Nothing => {}
         Beside::Linear(linear) => linear::add_json(linear, &mut object),
         Beside::Modes(modes) => modes::add_json(modes, &report.given, &mut object),
+        Beside::Responses(responses) => responses::add_json(responses, &mut object),
+        Beside::Comfort(comfort) => comfort::add_json(comfort, &mut object),
     }
     if !report.variants.is_empty() {
         let points = |v: &super::Variant| v.points.iter().map(|p| point(report, p)).collect::<Vec<_>>();

@@ -7,6 +7,7 @@
 //! | `csv` | spreadsheets and data frames | SI | rad |
 
 mod axes;
+pub mod comfort;
 mod csv;
 mod history;
 mod json;
@@ -18,6 +19,7 @@ mod number;
 mod palette;
 mod progress;
 mod report;
+pub mod responses;
 #[cfg(test)]
 mod sample;
 mod table;

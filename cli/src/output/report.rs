@@ -1,7 +1,7 @@
 //! The result of an analysis at one or several points, before it becomes text.
 
 use super::axes::Axes;
-use super::{Kind, Results, Writer, linear, modes};
+use super::{Kind, Results, Writer, comfort, linear, modes, responses};
 use problem::{Ending, Signal};
 use serde_json::json;
 use std::borrow::Cow;
@@ -65,6 +65,10 @@ pub enum Beside {
     Linear(linear::Linear),
     /// The modes at every point.
     Modes(modes::ModesAlong),
+    /// Frequency responses at every point.
+    Responses(responses::Responses),
+    /// Weighted accelerations at every point.
+    Comfort(comfort::ComfortAlong),
 }
 
 /// Everything that a command such as `trim` or `map` found out. Values are SI.
@@ -133,6 +137,9 @@ impl Results for Report {
             Beside::Nothing => {}
             Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
             Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
+            Beside::Responses(responses) => responses.turn(&|name| super::axes::factor(name)),
+            // root mean squares have no sense
+            Beside::Comfort(_) => {}
         }
         self.axes = axes;
         self
@@ -156,6 +163,8 @@ impl Results for Report {
             Beside::Nothing => true,
             Beside::Linear(linear) => linear.points.get(k).is_some_and(Result::is_ok),
             Beside::Modes(modes) => modes.points.get(k).is_some_and(Result::is_ok),
+            Beside::Responses(responses) => responses.points.get(k).is_some_and(Result::is_ok),
+            Beside::Comfort(comfort) => comfort.points.get(k).is_some_and(Result::is_ok),
         };
         self.points.iter().enumerate().any(|(k, p)| p.ending == Ending::Reached && found(k))
     }

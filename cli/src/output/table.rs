@@ -4,7 +4,7 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Beside, Point, Report};
-use super::{Angles, Kind, Options, history, linear, modes, versus};
+use super::{Angles, Kind, Options, comfort, history, linear, modes, responses, versus};
 use problem::Ending;
 use std::io;
 
@@ -36,6 +36,8 @@ fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Res
         Beside::Nothing => {}
         Beside::Linear(linear) => return linear::write_table(report, linear, options, out),
         Beside::Modes(modes) => return modes::write_table(report, modes, options, out),
+        Beside::Responses(responses) => return responses::write_table(report, responses, options, out),
+        Beside::Comfort(comfort) => return comfort::write_table(report, comfort, options, out),
     }
     match report.points.as_slice() {
         [] => {}
@@ -58,7 +60,7 @@ pub(super) fn prescribed(report: &Report, point: &Point, angles: Angles) -> Stri
 }
 
 /// `given: …` for the quantities with these indices; nothing where there are none.
-fn write_given(report: &Report, indices: &[usize], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+pub(super) fn write_given(report: &Report, indices: &[usize], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let (Some(point), false) = (report.points.first(), indices.is_empty()) else { return Ok(()) };
     let texts = indices.iter().filter_map(|&k| {
         let given = &report.given[k];
@@ -138,37 +140,48 @@ impl Column {
 
 /// Several points: a line per point, then how many ended how.
 fn write_several(report: &Report, points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
-    let palette = options.palette;
-    let given = |p: &Point, k: usize| p.given.get(k).copied().unwrap_or(f64::NAN);
-    let (fixed, swept): (Vec<usize>, Vec<usize>) =
-        (0..report.given.len()).partition(|&k| points.iter().all(|p| given(p, k) == given(&points[0], k)));
+    let (fixed, mut columns) = prescribed_columns(report, points, options);
     write_given(report, &fixed, options, out)?;
-    let mut columns: Vec<Column> = swept
-        .iter()
-        .map(|&k| Column::new(&report.given[k].name, &report.given[k].unit, points.iter().map(|p| given(p, k)), options.angles))
-        .collect();
     for k in chosen(report) {
         let signal = &report.signals[k];
         columns.push(Column::new(&signal.name, &signal.unit, points.iter().map(|p| p.value(k)), options.angles));
     }
-    let line = |text: &dyn Fn(&Column) -> String| {
-        columns.iter().map(|c| format!("{:>width$}", text(c), width = c.width())).collect::<Vec<_>>().join("  ")
-    };
-    writeln!(out, "\n{}", styled(palette.heading, &format!("{}  ending", line(&|c| c.name.clone()))))?;
-    writeln!(out, "{}", styled(palette.faint, line(&|c| c.unit.clone()).trim_end()))?;
+    write_columns(&columns, points, options, out)?;
+    write_summary(report, points, options, out)
+}
+
+/// Indices of the prescribed quantities that do not vary, and a column for each that does.
+pub(super) fn prescribed_columns(report: &Report, points: &[Point], options: &Options) -> (Vec<usize>, Vec<Column>) {
+    let given = |p: &Point, k: usize| p.given.get(k).copied().unwrap_or(f64::NAN);
+    let (fixed, swept): (Vec<usize>, Vec<usize>) =
+        (0..report.given.len()).partition(|&k| points.iter().all(|p| given(p, k) == given(&points[0], k)));
+    let column = |&k: &usize| Column::new(&report.given[k].name, &report.given[k].unit, points.iter().map(|p| given(p, k)), options.angles);
+    (fixed, swept.iter().map(column).collect())
+}
+
+/// Columns with a line per point, and how each point ended.
+pub(super) fn write_columns(columns: &[Column], points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+    let palette = options.palette;
+    writeln!(out, "\n{}", styled(palette.heading, &format!("{}  ending", line(columns, &|c| c.name.clone()))))?;
+    writeln!(out, "{}", styled(palette.faint, line(columns, &|c| c.unit.clone()).trim_end()))?;
     for (row, point) in points.iter().enumerate() {
         let style = match point.ending {
             Ending::Reached => palette.good,
             Ending::Limit { .. } => palette.caution,
             Ending::NotConverged { .. } => palette.bad,
         };
-        writeln!(out, "{}  {}", line(&|c| c.cells[row].clone()), styled(style, point.ending.name()))?;
+        writeln!(out, "{}  {}", line(columns, &|c| c.cells[row].clone()), styled(style, point.ending.name()))?;
     }
-    write_summary(report, points, options, out)
+    Ok(())
+}
+
+/// One line across columns.
+pub(super) fn line(columns: &[Column], text: &dyn Fn(&Column) -> String) -> String {
+    columns.iter().map(|c| format!("{:>width$}", text(c), width = c.width())).collect::<Vec<_>>().join("  ")
 }
 
 /// Number of points by ending, each cause with its first sentence.
-fn write_summary(report: &Report, points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+pub(super) fn write_summary(report: &Report, points: &[Point], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let reached = points.iter().filter(|p| p.ending == Ending::Reached).count();
     writeln!(out, "\n{reached} of {} points reached", points.len())?;
     let mut names: Vec<&str> = Vec::new();

@@ -119,10 +119,13 @@ impl Ticks {
             _ => format!("10{}", text::superscript(e)),
         };
         let major = (first..=last).step_by(stride as usize).map(|e| (10f64.powi(e), label(e))).collect();
-        let minor = (first - 1..=last)
-            .flat_map(|e| (2..10).map(move |k| f64::from(k) * 10f64.powi(e)))
-            .filter(|&v| v >= low && v <= high && stride == 1)
-            .collect();
+        let minor = match stride {
+            1 => (first - 1..=last)
+                .flat_map(|e| (2..10).map(move |k| f64::from(k) * 10f64.powi(e)))
+                .filter(|&v| v >= low && v <= high)
+                .collect(),
+            _ => (first..=last).map(|e| 10f64.powi(e)).collect(),
+        };
         Self { major, minor, exponent: 0 }
     }
 }

@@ -187,10 +187,11 @@ impl LinePanel {
     /// Draws the legend where several curves need one; returns the right edge of what was drawn.
     fn draw_legend(&self, canvas: &mut Canvas, panel: &Panel, styles: usize) -> f64 {
         let mut legend = Legend::default();
-        for (k, curve) in self.curves.iter().enumerate() {
+        // a curve without a name is told by another panel
+        for (k, curve) in self.curves.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {
             legend.add(Key::Line(self.pen(k, styles), curve.marked().then_some(styles + k)), &curve.name);
         }
-        if self.curves.len() < 2 {
+        if self.curves.len() < 2 || legend.is_empty() {
             return 0.0;
         }
         let obstacles: Vec<Point> = self.curves.iter().flat_map(|c| runs(c, panel)).flat_map(|run| dense(&run)).collect();

@@ -135,7 +135,7 @@ fn condition(E: &DMatrix<f64>, nominal: &[f64]) -> f64 {
 }
 
 /// `M ← T⁻¹ M T`.
-fn similar(M: &mut DMatrix<f64>, T: &[f64]) {
+pub(crate) fn similar(M: &mut DMatrix<f64>, T: &[f64]) {
     for (j, column_scale) in T.iter().enumerate() {
         for (i, row_scale) in T.iter().enumerate() {
             M[(i, j)] *= column_scale / row_scale;
@@ -144,7 +144,7 @@ fn similar(M: &mut DMatrix<f64>, T: &[f64]) {
 }
 
 /// Balances rows and columns by powers of two (Parlett and Reinsch); returns the factors T of `M ← T⁻¹ M T`.
-fn balance(M: &mut DMatrix<f64>) -> Vec<f64> {
+pub(crate) fn balance(M: &mut DMatrix<f64>) -> Vec<f64> {
     let n = M.nrows();
     let mut T = vec![1.0; n];
     // a few sweeps bring all there is to gain

@@ -16,6 +16,15 @@ pub enum Variable {
     Output(usize),
 }
 
+/// Unit of the rate of a quantity with this unit: `rad/s` becomes `rad/s²`.
+pub(crate) fn rate_unit(unit: &str) -> String {
+    match unit.strip_suffix("/s") {
+        _ if unit == "-" => "1/s".to_owned(),
+        Some(of) => format!("{of}/s²"),
+        None => format!("{unit}/s"),
+    }
+}
+
 /// The names of a plant.
 #[derive(Clone, Debug)]
 pub struct Variables {
@@ -60,7 +69,7 @@ impl Variables {
     pub fn unit(&self, variable: Variable) -> String {
         match variable {
             Variable::Unknown(i) => self.unknowns[i].unit.to_string(),
-            Variable::Rate(i) => format!("{}/s", self.unknowns[i].unit),
+            Variable::Rate(i) => rate_unit(&self.unknowns[i].unit),
             Variable::Input(i) => self.inputs[i].unit.to_string(),
             Variable::Output(i) => self.outputs[i].unit.to_string(),
         }

@@ -1,14 +1,16 @@
 //! Residuals and matrices of assembled motorcycles.
 
 use crate::clock::Clock;
+use analyses::{Excitation, FrequencyResponse};
 use fastbike::library::Source;
 use fastbike::standard_kinds;
 use mbody::assembly::assemble;
 use mbody::dynamics::{System, TreePlant};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 use problem::{At, Dae, Differentiable, Matrix, Outputs, Seeds, UnknownKind};
 use std::hint::black_box;
 use std::sync::Arc;
+use validation::vehicle::{Vehicle, running as straight};
 
 /// A bundled model.
 pub fn bundled(name: &str) -> Arc<System> {
@@ -86,6 +88,21 @@ fn state_matrix(clock: &mut Clock) {
     });
 }
 
+/// One frequency of the response of a trimmed vehicle: two inputs (the road with its rate among them), three outputs.
+fn frequency_point(clock: &mut Clock, name: &str) {
+    let state = Vehicle::bundled(name).state(&straight(&[30.0]));
+    let excitations = ["steer.torque", "front_road.height"].map(Excitation::input);
+    let outputs = ["chassis.roll", "chassis.heave", "chassis.yaw_rate"].map(str::to_owned);
+    let mut response = FrequencyResponse::of(&state.linear(), &excitations, &outputs).expect("responses");
+    let mut found = vec![Complex::new(0.0, 0.0); excitations.len() * outputs.len()];
+    let mut omega = 1.0;
+    clock.case(&format!("frequency point {name}"), 1, |_| {
+        omega = if omega > 100.0 { 1.0 } else { omega * 1.01 };
+        response.at(omega, &mut found);
+        black_box(&found);
+    });
+}
+
 /// Times residuals and matrices.
 pub fn run(clock: &mut Clock) {
     residual(clock, "moto11");
@@ -93,4 +110,6 @@ pub fn run(clock: &mut Clock) {
     residual(clock, "whipple");
     residual(clock, "gsxr1000_linkage");
     state_matrix(clock);
+    frequency_point(clock, "moto11");
+    frequency_point(clock, "gsxr1000");
 }

@@ -55,7 +55,7 @@ fn printed_speeds_of_stability_are_found() {
 }
 
 /// The bicycle linearized about straight running, lean and steer among the states.
-fn straight(speed: f64) -> LinearModel {
+pub(super) fn straight(speed: f64) -> LinearModel {
     let mut bicycle = Instant::of("whipple");
     bicycle.put(&[("chassis.forward_speed", speed), ("steer.rate", 0.0), ("chassis.roll_rate", 0.0)]);
     let mut plant = TreePlant::in_formulation(Vehicle::bundled("whipple").system, Formulation::Ggl);

@@ -4,10 +4,12 @@ mod circles;
 mod dynamics;
 mod linear;
 mod motion;
+mod response;
 mod signs;
 mod source;
 
 use validation::evidence::Row;
 
 /// Rows of the table.
-pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE, motion::EVIDENCE, circles::EVIDENCE];
+pub const EVIDENCE: &[&[Row]] =
+    &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE, motion::EVIDENCE, response::EVIDENCE, circles::EVIDENCE];

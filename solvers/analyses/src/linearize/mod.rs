@@ -137,6 +137,10 @@ pub struct LinearModel {
     pub D: DMatrix<f64>,
     /// All unknowns of the plant by states, multipliers and dependent coordinates included; rows of cyclic coordinates are zero.
     pub unknowns: DMatrix<f64>,
+    /// All unknowns of the plant by inputs: what inputs do to algebraic states and multipliers at once; other rows are zero.
+    pub unknowns_by_inputs: DMatrix<f64>,
+    /// Name, unit and meaning of all unknowns of the plant.
+    pub unknown_signals: Vec<Signal>,
     /// The cyclic coordinates.
     pub cyclic: Cyclic,
     /// Inputs and outputs that the model does without.
@@ -364,11 +368,13 @@ fn assemble(
     let D = by_inputs(&watched) + through.columns(A.ncols(), B.ncols());
 
     let mut unknowns = DMatrix::zeros(plant.unknowns().len(), states.len());
+    let mut unknowns_by_inputs = DMatrix::zeros(plant.unknowns().len(), kept_inputs.len());
     for (k, &i) in layout.differential.iter().enumerate() {
         unknowns.row_mut(i).copy_from(&split.S.row(k));
     }
     for (k, &i) in layout.algebraic.iter().chain(&layout.multipliers).enumerate() {
         unknowns.row_mut(i).copy_from(&C.row(blind.len() + k));
+        unknowns_by_inputs.row_mut(i).copy_from(&D.row(blind.len() + k));
     }
     let cyclic = Cyclic {
         unknowns: layout.cyclic.clone(),
@@ -400,6 +406,8 @@ fn assemble(
         A,
         B,
         unknowns,
+        unknowns_by_inputs,
+        unknown_signals: plant.unknowns().iter().map(|u| u.signal.clone()).collect(),
         cyclic,
     })
 }

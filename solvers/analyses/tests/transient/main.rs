@@ -69,7 +69,7 @@ fn inputs_may_be_functions_of_time() {
     let mut u = [0.0];
     force.at(1.0, &mut u);
     assert_eq!(column(&simulation, "cart.force").last(), Some(&u[0]));
-    assert_eq!(simulation.trajectory.signals[2].unit, "m/s/s");
+    assert_eq!(simulation.trajectory.signals[2].unit, "m/s²");
 }
 
 /// The same pendulum in its angle from the downward vertical, released horizontally: θ̈ = −g sin θ.

@@ -76,10 +76,19 @@ impl Written {
         plant.rows(on_velocities, EquationKind::VelocityConstraint).rows(on_coordinates, EquationKind::Constraint)
     }
 
-    /// Inputs; `rate` of the first one may be the second.
+    /// Inputs without rates.
     pub fn inputs(mut self, names: &str) -> Self {
         let input = |name: &str| Input { signal: signal(name), rate: None, nominal: 1.0, default: 0.0 };
         self.inputs.extend(names.split_whitespace().map(input));
+        self
+    }
+
+    /// Declares one input the rate of another.
+    #[allow(dead_code)]
+    pub fn rate(mut self, of: &str, rate: &str) -> Self {
+        let at = |name: &str| self.inputs.iter().position(|i| i.signal.name == name);
+        let (Some(of), Some(rate)) = (at(of), at(rate)) else { panic!("no inputs `{of}` and `{rate}`") };
+        self.inputs[of].rate = Some(rate);
         self
     }
 
