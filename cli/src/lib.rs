@@ -7,6 +7,8 @@ pub mod arguments;
 pub mod backend;
 pub mod commands;
 pub mod console;
+pub mod family;
+pub mod figures;
 pub mod library;
 pub mod model;
 pub mod motion;
@@ -15,6 +17,7 @@ pub mod plan;
 pub mod plot;
 pub mod report;
 pub mod results;
+pub mod sensitivities;
 pub mod small_motions;
 pub mod steady;
 

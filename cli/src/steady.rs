@@ -5,7 +5,7 @@ use crate::backend::AlgebraicBackend;
 use crate::output::{Given, Point, Progress};
 use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
 use crate::{Failure, backend};
-use analyses::trim::{TrimError, TrimPoint, TrimProblem, Walk};
+use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};
 use problem::{Ending, Plant, Signal};
 use rayon::prelude::*;
@@ -239,6 +239,32 @@ impl Job<'_> {
             false => Ok(braked),
         }
     }
+}
+
+/// The trim whose solution a point of a run is: roles as the run chose them, goals at the values of the point.
+///
+/// # Errors
+/// See [`run`].
+pub fn trim_at(request: &Request, system: &Arc<System>, point: &Point) -> Result<Trim, Failure> {
+    let plant = TreePlant::new(system.clone());
+    if request.speed.is_none() && !request.top_speed {
+        return Ok(request.at_rest(&plant)?.trim);
+    }
+    let mut given = point.given.iter().copied();
+    let speed = if request.top_speed { None } else { given.next() };
+    let turn = match &request.turn {
+        Some((Turn::Radius, _)) => given.next().map(|radius| 1.0 / radius),
+        Some(_) => given.next(),
+        None => None,
+    };
+    let braked = system.inputs().iter().zip(&point.values[system.unknowns().len()..]);
+    let braked = braked.filter(|(i, _)| i.signal.name.ends_with("_brake.torque")).any(|(_, u)| *u != 0.0);
+    let acceleration = request.acceleration.as_ref().and_then(|_| given.next());
+    let drive = if braked && acceleration.is_some_and(|a| a < 0.0) { Drive::Brakes } else { Drive::Engine };
+    let mut trim = request.moving(&plant, system, drive, speed.unwrap_or(50.0))?.trim;
+    let goals = [Some(speed.unwrap_or(1.0)), Some(turn.unwrap_or(0.0)), acceleration];
+    goals.into_iter().flatten().enumerate().for_each(|(goal, value)| trim.set_goal(goal, value));
+    Ok(trim)
 }
 
 fn torque_is_negative(point: &TrimPoint, system: &System) -> bool {

@@ -37,8 +37,14 @@ pub(super) fn object(report: &Report) -> Value {
     }
     if !report.variants.is_empty() {
         let points = |v: &super::Variant| v.points.iter().map(|p| point(report, p)).collect::<Vec<_>>();
-        let variants: Vec<Value> = report.variants.iter().map(|v| json!({ "variant": v.name, "points": points(v) })).collect();
-        object["versus"] = variants.into();
+        let variants = report.variants.iter().map(|v| {
+            let mut object = json!({ "variant": v.name, "points": points(v) });
+            if let Beside::Modes(modes) = &v.beside {
+                modes::add_json(modes, &report.given, &mut object);
+            }
+            object
+        });
+        object["versus"] = variants.collect::<Vec<_>>().into();
     }
     object
 }

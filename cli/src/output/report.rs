@@ -47,12 +47,14 @@ impl Point {
 }
 
 /// The same analysis for a variant of the model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Variant {
     /// What the user wrote after `--versus`.
     pub name: String,
     /// Its points, in the order of the report's, with the values of the report's signals (NaN where the variant has no such signal).
     pub points: Vec<Point>,
+    /// What the analysis found beside the signals.
+    pub beside: Beside,
 }
 
 /// What an analysis found at the points beside their signals.
@@ -129,10 +131,12 @@ impl Results for Report {
                 (*value, *threshold) = (turned(*value, signal), turned(*threshold, signal));
             }
         }
-        match &mut self.beside {
-            Beside::Nothing => {}
-            Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
-            Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
+        for beside in std::iter::once(&mut self.beside).chain(self.variants.iter_mut().map(|v| &mut v.beside)) {
+            match beside {
+                Beside::Nothing => {}
+                Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
+                Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
+            }
         }
         self.axes = axes;
         self

@@ -158,7 +158,7 @@ impl Contour {
         let curve = Curve::new(self.value.label.clone(), points);
         let (first, last) = (borders[0].min(borders[places.len()]), borders[0].max(borders[places.len()]));
         let x = along.clone().between(first, last);
-        Lines { title, x, panels: vec![LinePanel { y: self.value.clone(), curves: vec![curve] }], bands }
+        Lines { title, x, panels: vec![LinePanel { y: self.value.clone(), curves: vec![curve] }], bands, variants: Vec::new() }
     }
 }
 

@@ -89,6 +89,7 @@ fn samples() -> Vec<(&'static str, Figure)> {
                 x: Axis::new("Speed", "m/s"),
                 panels: vec![LinePanel { y: Axis::new("Lean angle", "deg"), curves: vec![Curve::new("lean", vec![(30.0, 42.0)])] }],
                 bands: vec![],
+                variants: vec![],
             }),
         ),
     ]
@@ -108,6 +109,7 @@ fn stacked() -> Figure {
             LinePanel { y: Axis::new("Pitch", "deg"), curves: vec![curve("pitch", &|v| 0.3 - (v / 40.0).powi(2))] },
         ],
         bands: vec![Band { name: "engine_limit".to_owned(), range: (56.0, 60.0) }],
+        variants: vec![],
     })
 }
 
@@ -125,6 +127,7 @@ fn crowded() -> Figure {
         x: Axis::new("Lateral acceleration", "m/s^2"),
         panels: vec![LinePanel { y: Axis::new("Steering torque", "N m"), curves: (0..6).map(curve).collect() }],
         bands: vec![],
+        variants: vec![],
     })
 }
 
@@ -141,6 +144,7 @@ fn frequency() -> Figure {
             panel(Axis::new("Phase", "deg").between(-180.0, 0.0), &phase),
         ],
         bands: vec![],
+        variants: vec![],
     })
 }
 

@@ -1,8 +1,8 @@
 //! Analyses as services: they know signals and problem traits, never an engine and never a trade.
 //!
 //! [`trim`] finds steady states by inverse dynamics, [`mod@linearize`] makes linear models at them, [`mod@eigen`] their eigenvalues, which
-//! [`modes`] names and follows along a sweep; [`transient`] follows a motion over time; [`expression`] is the small language in which
-//! conditions are written.
+//! [`modes`] names and follows along a sweep; [`sensitivity`] says how both move with a parameter; [`transient`] follows a motion over time;
+//! [`expression`] is the small language in which conditions are written.
 
 #![allow(non_snake_case)]
 
@@ -10,6 +10,7 @@ pub mod eigen;
 pub mod expression;
 pub mod linearize;
 pub mod modes;
+pub mod sensitivity;
 pub mod transient;
 pub mod trim;
 pub mod variable;
@@ -18,4 +19,5 @@ pub use eigen::{EigenError, Spectrum, eigen};
 pub use expression::{Expression, ExpressionError};
 pub use linearize::{LinearModel, LinearizeError, linearize};
 pub use modes::{Mode, Modes};
+pub use sensitivity::{Sensitivity, SensitivityError};
 pub use variable::{Variable, Variables};

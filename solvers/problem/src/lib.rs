@@ -7,6 +7,7 @@
 
 mod algebraic;
 mod error;
+mod family;
 mod integration;
 mod matrix;
 mod mode;
@@ -17,6 +18,7 @@ mod signal;
 
 pub use algebraic::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound};
 pub use error::EvalError;
+pub use family::{Family, Member, NoMember, Parameter, ParameterId};
 pub use integration::{
     AlgebraicErrors, DaeMethod, DaeProblem, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink,
 };

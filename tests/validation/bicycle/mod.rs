@@ -2,12 +2,22 @@
 
 mod circles;
 mod dynamics;
+mod formulas;
 mod linear;
 mod motion;
+mod sensitivity;
 mod signs;
 mod source;
 
 use validation::evidence::Row;
 
 /// Rows of the table.
-pub const EVIDENCE: &[&[Row]] = &[source::EVIDENCE, dynamics::EVIDENCE, linear::EVIDENCE, motion::EVIDENCE, circles::EVIDENCE];
+pub const EVIDENCE: &[&[Row]] = &[
+    source::EVIDENCE,
+    dynamics::EVIDENCE,
+    linear::EVIDENCE,
+    motion::EVIDENCE,
+    circles::EVIDENCE,
+    formulas::EVIDENCE,
+    sensitivity::EVIDENCE,
+];
