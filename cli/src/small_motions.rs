@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::output::linear::Linear;
 use crate::output::modes::{Branch, Critical, ModesAlong, NamedMode, PointModes};
 use crate::output::{Point, Progress};
-use crate::plan::{Prescribed, Request, Turn};
+use crate::plan::{Prescribed, Request, Turn, base_name};
 use crate::steady::{self, Steady};
 use analyses::linearize::{BoundInputs, Options};
 use analyses::modes::critical::zero;
@@ -13,7 +13,7 @@ use analyses::modes::tracking::{Edge, link_finely, names};
 use analyses::{LinearModel, Modes, linearize};
 use mbody::dynamics::{Formulation, System, TreePlant};
 use motorcycle::handling::MODE_RULES;
-use problem::{At, Dae, Signal, UnknownKind};
+use problem::{At, Dae, Signal, Unknown, UnknownKind};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -189,7 +189,11 @@ impl SmallMotions<'_> {
         let branches = along.map_or_else(Vec::new, |k| branches(steady, k, &points, &first_edges, &named));
         let shown = if shapes == Shapes::Shown { self.system.unknowns() } else { &[] };
         let shape_signals: Vec<Signal> = shown.iter().map(|u| u.signal.clone()).collect();
-        let displacements = shown.iter().map(|u| matches!(u.kind, UnknownKind::Position | UnknownKind::State)).collect();
+        // what turns or travels along without end belongs to a shape only where it is the pose of the whole
+        let base = base_name(&TreePlant::new(self.system.clone())).map(|base| format!("{base}."));
+        let poses = |u: &Unknown| !u.cyclic || base.as_ref().is_some_and(|base| u.signal.name.starts_with(base));
+        let displaces = |u: &Unknown| matches!(u.kind, UnknownKind::Position | UnknownKind::State) && poses(u);
+        let displacements = shown.iter().map(displaces).collect();
         let points = found.iter().zip(&named).map(|(modes, names)| match modes {
             Ok(modes) => Ok(named_modes(modes, names, &shape_signals)),
             Err(because) => Err(because.clone()),

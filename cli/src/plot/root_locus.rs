@@ -94,7 +94,9 @@ impl RootLocus {
     /// Names of oscillations, then the others, each once.
     fn names(&self) -> Vec<&str> {
         let oscillates = |b: &&Locus| b.points.iter().filter(|p| p.1 > 0.0).count() * 2 > b.points.len();
-        let (oscillations, others): (Vec<&Locus>, Vec<&Locus>) = self.branches.iter().partition(oscillates);
+        let (oscillations, mut others): (Vec<&Locus>, Vec<&Locus>) = self.branches.iter().partition(oscillates);
+        // dashes belong to the variants: no more names than colors, real modes least of all
+        others.retain(|_| self.variants.is_empty());
         let mut names: Vec<&str> = Vec::new();
         for branch in oscillations.into_iter().chain(others) {
             if !names.contains(&branch.name.as_str()) {
@@ -143,7 +145,7 @@ impl RootLocus {
     fn draw_legend(&self, canvas: &mut Canvas, panel: &Panel) -> f64 {
         let mut legend = Legend::default();
         for (k, name) in self.shown(panel).into_iter().enumerate() {
-            legend.add(Key::Line(pen(k), None), name);
+            legend.add(Key::Line(Pen { dash: if self.variants.is_empty() { pen(k).dash } else { "" }, ..pen(k) }, None), name);
         }
         for (k, name) in self.variants.iter().enumerate() {
             legend.add(Key::Line(Pen { dash: style::curve_dash(k), ..Pen::solid(style::INK, 1.2) }, None), name);

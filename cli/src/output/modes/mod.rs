@@ -112,7 +112,7 @@ pub struct ModesAlong {
     pub points: Vec<Result<PointModes, String>>,
     /// Signals of the shapes; empty where nobody asked for shapes.
     pub shape_signals: Vec<Signal>,
-    /// Which of these are displacements, as opposed to rates.
+    /// Which of these are displacements of the shape, as opposed to rates and to wheels that turn.
     pub displacements: Vec<bool>,
     /// Paths of the modes along the first swept quantity.
     pub branches: Vec<Branch>,

@@ -27,11 +27,14 @@ use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 use problem::{AlgebraicProblem, At, EvalError, Family, Matrix, Member, NoMember, ParameterId, Plant};
 use thiserror::Error;
 
-/// Differences per derivative: steps from h down to h/8 leave an error of h⁸.
-const LEVELS: i32 = 4;
+/// Differences per derivative: steps from h down to h/8 leave an error of h⁸; where something bends more sharply, smaller ones follow.
+const LEVELS: (i32, i32) = (4, 9);
 
 /// Largest step in units of the parameter's magnitude, a power of two.
 const STEP: f64 = 1.0 / 128.0;
+
+/// Relative error at which smaller steps end: rounding would not let them do much better.
+const ACCURATE: f64 = 1e-9;
 
 /// Eigenvalues closer than this, relative to the magnitude of the larger one, are not told apart.
 const ALONE: f64 = 1e-8;
@@ -143,19 +146,21 @@ impl<'f> Sensitivity<'f> {
     /// There is no model beside this one.
     ///
     /// # Cost
-    /// Eight assemblies, residuals and linear models.
+    /// Eight assemblies, residuals and linear models; up to eighteen where the error asks for it.
     pub fn by(&self, parameter: ParameterId) -> Result<Derivatives, SensitivityError> {
         let about = &self.family.parameters()[parameter.0];
         // a power of two: the ends of the steps are p ± h to the last bit, or nearly so
         let largest = (about.nominal * STEP).log2().round().exp2();
         let mut slopes: Vec<Vec<Complex<f64>>> = Vec::new();
-        for level in 0..LEVELS {
-            let step = largest / 2f64.powi(level);
-            slopes.push(self.slopes(parameter, about.value, step)?);
+        let modes = self.spectrum.values.len();
+        for level in 0..LEVELS.1 {
+            if level >= LEVELS.0 && (0..modes).all(|k| !self.alone[k] || self.accurate(k, estimate(&slopes, k), about.nominal)) {
+                break;
+            }
+            slopes.push(self.slopes(parameter, about.value, largest / 2f64.powi(level))?);
         }
         let count = slopes.first().map_or(0, Vec::len);
-        let estimate = |k: usize| extrapolate(&slopes.iter().map(|level| level[k]).collect::<Vec<_>>());
-        let modes = self.spectrum.values.len();
+        let estimate = |k: usize| estimate(&slopes, k);
         let eigenvalues = (0..modes).map(|k| self.alone[k].then(|| estimate(k))).collect();
         let mut signals = (modes..count).map(|k| {
             let Estimate { value, error } = estimate(k);
@@ -168,6 +173,11 @@ impl<'f> Sensitivity<'f> {
             inputs: signals.by_ref().take(inputs).collect(),
             outputs: signals.collect(),
         })
+    }
+
+    /// Whether a derivative is good enough, by itself or beside the eigenvalue over the parameter.
+    fn accurate(&self, slot: usize, found: Estimate<Complex<f64>>, nominal: f64) -> bool {
+        found.error <= ACCURATE * found.value.norm() || found.error * nominal <= 1e-3 * ACCURATE * self.spectrum.values[slot].norm()
     }
 
     /// Central differences over one step: of the eigenvalues, then of the signals.
@@ -226,6 +236,11 @@ impl<'f> Sensitivity<'f> {
         };
         self.spectrum.values.iter().enumerate().map(slope).collect()
     }
+}
+
+/// One of the derivatives, from the differences of all levels.
+fn estimate(slopes: &[Vec<Complex<f64>>], k: usize) -> Estimate<Complex<f64>> {
+    extrapolate(&slopes.iter().map(|level| level[k]).collect::<Vec<_>>())
 }
 
 /// Value of an unknown, rate or input.
