@@ -21,6 +21,18 @@ pub struct ModelArguments {
     pub reactions: bool,
 }
 
+impl ModelArguments {
+    /// The model of a variant: another one, or the same with one more entry overridden (`PATH=VALUE`).
+    pub fn variant(&self, variant: &str) -> Self {
+        let mut model = self.clone();
+        match variant.contains('=') {
+            true => model.set.push(variant.to_owned()),
+            false => model.model = variant.to_owned(),
+        }
+        model
+    }
+}
+
 /// How results are shown and kept.
 #[derive(Clone, Debug, Args)]
 pub struct OutputArguments {

@@ -8,6 +8,8 @@ pub mod backend;
 pub mod commands;
 pub mod console;
 pub mod interrupt;
+pub mod family;
+pub mod figures;
 pub mod library;
 pub mod maneuver;
 pub mod model;
@@ -19,6 +21,7 @@ pub mod report;
 pub mod responses;
 pub mod results;
 pub mod rider;
+pub mod sensitivities;
 pub mod small_motions;
 pub mod steady;
 

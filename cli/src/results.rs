@@ -3,12 +3,13 @@
 
 use crate::arguments::{ModelArguments, OutputArguments, unknown_name};
 use crate::library::Source;
-use crate::output::{self, Options, Report, Results};
+use crate::output::{self, Options, Point, Report, Results};
 use crate::plot::{Figure, FileFormat};
 use crate::steady::{self, Steady};
 use crate::{Context, Exit, Failure};
 use mbody::description::Library;
 use mbody::dynamics::{System, TreePlant};
+use problem::Signal;
 use serde_json::json;
 use std::fs;
 use std::path::Path;
@@ -35,8 +36,18 @@ pub fn shown(show: &[String], system: &Arc<System>) -> Result<Vec<usize>, Failur
 /// A report of steady states; `shown` are the signals of the table.
 pub fn report(command: &str, model: &str, shown: Vec<usize>, steady: Steady) -> Report {
     let mut report = Report::new(command, model, steady.given, steady.signals);
-    (report.points, report.warnings, report.shown) = (steady.points, steady.warnings, shown);
+    (report.points, report.limits, report.warnings, report.shown) = (steady.points, steady.limits, steady.warnings, shown);
     report
+}
+
+/// The points of a variant with the values of a base's signals, in their order; NaN where it has no such signal.
+pub fn in_order_of(signals: &[Signal], variant: Steady) -> Vec<Point> {
+    let order: Vec<Option<usize>> = signals.iter().map(|s| variant.signals.iter().position(|v| v.name == s.name)).collect();
+    let mut points = variant.points;
+    for point in points.iter_mut().filter(|p| !p.values.is_empty()) {
+        point.values = order.iter().map(|k| k.map_or(f64::NAN, |k| point.values[k])).collect();
+    }
+    points
 }
 
 /// Prints the results in the axes and the format asked for, then writes figure (`--plot`) and run folder (`--out`).

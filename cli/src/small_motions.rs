@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::output::linear::Linear;
 use crate::output::modes::{Branch, Critical, ModesAlong, NamedMode, PointModes};
 use crate::output::{Point, Progress};
-use crate::plan::{Prescribed, Request, Turn};
+use crate::plan::{Prescribed, Request, Turn, base_name};
 use crate::steady::{self, Steady};
 use analyses::linearize::{BoundInputs, Options};
 use analyses::modes::critical::zero;
@@ -13,7 +13,7 @@ use analyses::modes::tracking::{Edge, link_finely, names};
 use analyses::{LinearModel, Modes, linearize};
 use mbody::dynamics::{Formulation, System, TreePlant};
 use motorcycle::handling::MODE_RULES;
-use problem::{At, Dae, Signal};
+use problem::{At, Dae, Signal, Unknown, UnknownKind};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -71,7 +71,7 @@ impl SmallMotions<'_> {
     }
 
     /// Names of the states at the first point that has some; none without constraints.
-    fn states(&self, steady: &Steady) -> Vec<String> {
+    pub(crate) fn states(&self, steady: &Steady) -> Vec<String> {
         if self.system.constraints().is_empty() {
             return Vec::new();
         }
@@ -187,20 +187,19 @@ impl SmallMotions<'_> {
         let along = swept(steady).first().copied();
         let first_edges: Vec<&Edge> = edges.iter().filter(|(k, _)| Some(*k) == along).map(|(_, e)| e).collect();
         let branches = along.map_or_else(Vec::new, |k| branches(steady, k, &points, &first_edges, &named));
-        let shape_signals = match shapes {
-            Shapes::Shown => self.shape_signals(),
-            Shapes::LeftOut => Vec::new(),
-        };
+        let shown = if shapes == Shapes::Shown { self.system.unknowns() } else { &[] };
+        let shape_signals: Vec<Signal> = shown.iter().map(|u| u.signal.clone()).collect();
+        // what turns or travels along without end belongs to a shape only where it is the pose of the whole
+        let base = base_name(&TreePlant::new(self.system.clone())).map(|base| format!("{base}."));
+        let poses = |u: &Unknown| !u.cyclic || base.as_ref().is_some_and(|base| u.signal.name.starts_with(base));
+        let displaces = |u: &Unknown| matches!(u.kind, UnknownKind::Position | UnknownKind::State) && poses(u);
+        let displacements = shown.iter().map(displaces).collect();
         let points = found.iter().zip(&named).map(|(modes, names)| match modes {
             Ok(modes) => Ok(named_modes(modes, names, &shape_signals)),
             Err(because) => Err(because.clone()),
         });
-        Ok(ModesAlong { points: points.collect(), critical: critical.into_iter().flatten().collect(), shape_signals, branches, along })
-    }
-
-    /// Signals of the shapes: all unknowns of the steady state.
-    fn shape_signals(&self) -> Vec<Signal> {
-        self.system.unknowns().iter().map(|u| u.signal.clone()).collect()
+        let critical = critical.into_iter().flatten().collect();
+        Ok(ModesAlong { points: points.collect(), critical, shape_signals, displacements, branches, along })
     }
 
     /// Changes of stability between two points.
@@ -275,6 +274,7 @@ fn named_modes(modes: &Modes, names: &[Name], shape_signals: &[Signal]) -> Point
         damping_ratio: mode.damping_ratio(),
         participation: mode.participation.clone(),
         shape: mode.shape.iter().copied().take(shape_signals.len()).collect(),
+        sensitivity: Vec::new(),
     });
     PointModes { signals: modes.signals.clone(), modes: named.collect() }
 }

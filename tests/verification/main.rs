@@ -12,6 +12,7 @@ mod mechanisms;
 mod motion;
 mod recorded;
 mod responses;
+mod sensitivity;
 mod trim;
 
 use validation::evidence;
@@ -30,6 +31,7 @@ fn the_table_of_evidence_is_up_to_date() {
             responses::EVIDENCE,
             bundled::EVIDENCE,
             invariance::EVIDENCE,
+            sensitivity::EVIDENCE,
         ],
     );
 }

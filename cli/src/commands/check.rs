@@ -38,7 +38,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     }
     match assembled {
         None => Err(Failure::Findings(findings)),
-        Some(assembled) => {
+        Some((_, assembled)) => {
             if !findings.is_empty() {
                 context.console.print(report::findings(&findings, context.palette).as_bytes())?;
             }

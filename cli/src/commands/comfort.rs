@@ -1,6 +1,6 @@
 //! `comfort`: weighted acceleration of a point on a rough road, over speed.
 
-use super::modes::quantity;
+use crate::figures::modes::quantity;
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, unknown_name};
 use crate::output::comfort::{Class, ComfortAlong};

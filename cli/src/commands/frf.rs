@@ -1,6 +1,6 @@
 //! `frf`: frequency responses at a steady state or along a sweep.
 
-use super::modes::quantity;
+use crate::figures::modes::quantity;
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
 use crate::output::responses::{Responses, quotient};

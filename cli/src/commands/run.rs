@@ -173,7 +173,7 @@ fn figure(history: &History, drawn: &[usize]) -> Result<Figure, Failure> {
         let signal = &history.signals[s];
         let shown = Angles::Degrees.show(&signal.unit);
         let points = history.time.iter().zip(&history.columns[s]).map(|(&t, &v)| (t, v * shown.factor)).collect();
-        let curve = Curve { name: signal.name.clone(), points, markers: Markers::Never };
+        let curve = Curve { name: signal.name.clone(), points, markers: Markers::Never, variant: 0 };
         LinePanel { y: Axis::new(signal.name.clone(), shown.unit), curves: vec![curve] }
     });
     Ok(Figure::Lines(Lines {
@@ -181,6 +181,7 @@ fn figure(history: &History, drawn: &[usize]) -> Result<Figure, Failure> {
         x: Axis::new("time", "s"),
         panels: panels.collect(),
         bands: Vec::new(),
+        variants: Vec::new(),
     }))
 }
 

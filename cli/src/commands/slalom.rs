@@ -2,7 +2,7 @@
 //!
 //! One full roll per two cones: `f = V / 2d`; the curve is `|φ/τ|` at that frequency. Source: theory manual 9.3.
 
-use super::modes::quantity;
+use crate::figures::modes::quantity;
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
 use crate::output::responses::quotient;

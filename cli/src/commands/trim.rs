@@ -2,7 +2,7 @@
 
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments};
-use crate::output::{Angles, Report, Variant};
+use crate::output::{Angles, Beside, Report, Variant};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::{Context, Exit, Failure, model, results, steady};
@@ -60,21 +60,12 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     results::deliver(context, (&arguments.model, &arguments.output), report, figure)
 }
 
-/// The same analysis for a variant, its values in the order of the base's signals.
+/// The same analysis for a variant.
 fn versus(variant: &str, arguments: &Arguments, signals: &[Signal], context: &Context) -> Result<Variant, Failure> {
-    let mut model = arguments.model.clone();
-    match variant.contains('=') {
-        true => model.set.push(variant.to_owned()),
-        false => model.model = variant.to_owned(),
-    }
-    let loaded = model::load(&model, context)?;
+    let loaded = model::load(&arguments.model.variant(variant), context)?;
     let steady = steady::run(&arguments.trim.request()?, &loaded.assembled.system, &arguments.trim.backend, variant)?;
-    let order: Vec<Option<usize>> = signals.iter().map(|s| steady.signals.iter().position(|v| v.name == s.name)).collect();
-    let mut points = steady.points;
-    for point in points.iter_mut().filter(|p| !p.values.is_empty()) {
-        point.values = order.iter().map(|k| k.map_or(f64::NAN, |k| point.values[k])).collect();
-    }
-    Ok(Variant { name: variant.to_owned(), points })
+    let points = results::in_order_of(signals, steady);
+    Ok(Variant { name: variant.to_owned(), points, beside: Beside::Nothing })
 }
 
 /// Lines over the quantity that is swept, one panel per shown signal.
@@ -106,7 +97,7 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
             let at = (point.given[x] * across.factor, point.value(s) * upward.factor);
             match curves.iter_mut().find(|c| c.name == name) {
                 Some(curve) => curve.points.push(at),
-                None => curves.push(Curve { name, points: vec![at], markers: Markers::WhenFew }),
+                None => curves.push(Curve { name, points: vec![at], markers: Markers::WhenFew, variant: 0 }),
             }
         }
         LinePanel { y: Axis::new(signal.name.clone(), upward.unit), curves }
@@ -116,6 +107,7 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
         x: Axis::new(given[x].name.replace('_', " "), across.unit),
         panels: panels.collect(),
         bands: Vec::new(),
+        variants: Vec::new(),
     }))
 }
 

@@ -37,10 +37,19 @@ pub(super) fn object(report: &Report) -> Value {
         Beside::Responses(responses) => responses::add_json(responses, &mut object),
         Beside::Comfort(comfort) => comfort::add_json(comfort, &mut object),
     }
+    if !report.limits.is_empty() {
+        object["limits"] = report.limits.iter().map(|p| point(report, p)).collect::<Vec<_>>().into();
+    }
     if !report.variants.is_empty() {
         let points = |v: &super::Variant| v.points.iter().map(|p| point(report, p)).collect::<Vec<_>>();
-        let variants: Vec<Value> = report.variants.iter().map(|v| json!({ "variant": v.name, "points": points(v) })).collect();
-        object["versus"] = variants.into();
+        let variants = report.variants.iter().map(|v| {
+            let mut object = json!({ "variant": v.name, "points": points(v) });
+            if let Beside::Modes(modes) = &v.beside {
+                modes::add_json(modes, &report.given, &mut object);
+            }
+            object
+        });
+        object["versus"] = variants.collect::<Vec<_>>().into();
     }
     object
 }

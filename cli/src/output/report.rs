@@ -47,12 +47,14 @@ impl Point {
 }
 
 /// The same analysis for a variant of the model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Variant {
     /// What the user wrote after `--versus`.
     pub name: String,
     /// Its points, in the order of the report's, with the values of the report's signals (NaN where the variant has no such signal).
     pub points: Vec<Point>,
+    /// What the analysis found beside the signals.
+    pub beside: Beside,
 }
 
 /// What an analysis found at the points beside their signals.
@@ -88,6 +90,8 @@ pub struct Report {
     pub shown: Vec<usize>,
     /// The points in the order of the sweep.
     pub points: Vec<Point>,
+    /// Last points before a limit, between the points of a grid.
+    pub limits: Vec<Point>,
     /// The same analysis for variants.
     pub variants: Vec<Variant>,
     /// What the analysis found beside the signals.
@@ -107,6 +111,7 @@ impl Report {
             signals,
             shown: Vec::new(),
             points: Vec::new(),
+            limits: Vec::new(),
             variants: Vec::new(),
             beside: Beside::Nothing,
             warnings: Vec::new(),
@@ -125,7 +130,7 @@ impl Results for Report {
         if axes == self.axes {
             return self;
         }
-        for point in self.points.iter_mut().chain(self.variants.iter_mut().flat_map(|v| &mut v.points)) {
+        for point in self.points.iter_mut().chain(&mut self.limits).chain(self.variants.iter_mut().flat_map(|v| &mut v.points)) {
             let given = self.given.iter().map(|g| g.name.as_str());
             let signals = self.signals.iter().map(|s| s.name.as_str());
             point.given.iter_mut().zip(given).chain(point.values.iter_mut().zip(signals)).for_each(|(v, name)| *v = turned(*v, name));
@@ -133,13 +138,15 @@ impl Results for Report {
                 (*value, *threshold) = (turned(*value, signal), turned(*threshold, signal));
             }
         }
-        match &mut self.beside {
-            Beside::Nothing => {}
-            Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
-            Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
-            Beside::Responses(responses) => responses.turn(&|name| super::axes::factor(name)),
-            // root mean squares have no sense
-            Beside::Comfort(_) => {}
+        for beside in std::iter::once(&mut self.beside).chain(self.variants.iter_mut().map(|v| &mut v.beside)) {
+            match beside {
+                Beside::Nothing => {}
+                Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
+                Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
+                Beside::Responses(responses) => responses.turn(&|name| super::axes::factor(name)),
+                // root mean squares have no sense
+                Beside::Comfort(_) => {}
+            }
         }
         self.axes = axes;
         self

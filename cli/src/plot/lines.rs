@@ -27,12 +27,14 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// Whether the points are marked.
     pub markers: Markers,
+    /// Which of [`Lines::variants`]; curves of one name then have one color, and variants differ in dashes.
+    pub variant: usize,
 }
 
 impl Curve {
     /// A curve with markers while its points are few.
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { name: name.into(), points, markers: Markers::WhenFew }
+        Self { name: name.into(), points, markers: Markers::WhenFew, variant: 0 }
     }
 }
 
@@ -65,6 +67,8 @@ pub struct Lines {
     pub panels: Vec<LinePanel>,
     /// Shaded ranges, in all panels.
     pub bands: Vec<Band>,
+    /// Names of variants, the base first; empty where there is only one.
+    pub variants: Vec<String>,
 }
 
 /// Curves with more points than this are not marked by themselves.
@@ -83,11 +87,11 @@ impl Lines {
             self.draw_bands(&mut canvas, panel);
             panel.draw_grid(&mut canvas);
             canvas.clip(panel.frame.shrunk(-style::MARKER));
-            content.draw_curves(&mut canvas, panel, styles);
+            content.draw_curves(&mut canvas, panel, (styles, &self.variants));
             canvas.unclip();
             panel.draw_frame(&mut canvas);
             panel.draw_y_labels(&mut canvas, labels);
-            right = right.max(content.draw_legend(&mut canvas, panel, styles));
+            right = right.max(content.draw_legend(&mut canvas, panel, (styles, &self.variants)));
             bottom = panel.frame.bottom();
         }
         if let Some(last) = panels.last() {
@@ -166,15 +170,31 @@ impl Lines {
 
 impl LinePanel {
     /// Pen of a curve: its own color, and dashes where neither markers nor solitude tell it apart.
-    fn pen(&self, curve: usize, styles: usize) -> Pen {
+    fn pen(&self, curve: usize, (styles, variants): (usize, &[String])) -> Pen {
+        if !variants.is_empty() {
+            let Curve { name, variant, .. } = &self.curves[curve];
+            let color = self.names().iter().position(|n| *n == name).unwrap_or(0);
+            return Pen { color: style::curve_color(color), width: style::CURVE_WIDTH, dash: style::curve_dash(*variant) };
+        }
         let plain = self.curves.len() == 1 || self.curves[curve].marked();
         let dash = if plain { "" } else { style::curve_dash(curve) };
         Pen { color: style::curve_color(styles + curve), width: style::CURVE_WIDTH, dash }
     }
 
-    fn draw_curves(&self, canvas: &mut Canvas, panel: &Panel, styles: usize) {
+    /// Names of the curves, each once.
+    fn names(&self) -> Vec<&String> {
+        let mut names: Vec<&String> = Vec::new();
+        for curve in &self.curves {
+            if !names.contains(&&curve.name) {
+                names.push(&curve.name);
+            }
+        }
+        names
+    }
+
+    fn draw_curves(&self, canvas: &mut Canvas, panel: &Panel, (styles, variants): (usize, &[String])) {
         for (k, curve) in self.curves.iter().enumerate() {
-            let pen = self.pen(k, styles);
+            let pen = self.pen(k, (styles, variants));
             for run in runs(curve, panel) {
                 canvas.polyline(&run, pen);
                 if curve.marked() || run.len() == 1 {
@@ -185,11 +205,20 @@ impl LinePanel {
     }
 
     /// Draws the legend where several curves need one; returns the right edge of what was drawn.
-    fn draw_legend(&self, canvas: &mut Canvas, panel: &Panel, styles: usize) -> f64 {
+    fn draw_legend(&self, canvas: &mut Canvas, panel: &Panel, (styles, variants): (usize, &[String])) -> f64 {
         let mut legend = Legend::default();
-        // a curve without a name is told by another panel
-        for (k, curve) in self.curves.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {
-            legend.add(Key::Line(self.pen(k, styles), curve.marked().then_some(styles + k)), &curve.name);
+        if variants.is_empty() {
+            // a curve without a name is told by another panel
+            for (k, curve) in self.curves.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {
+                legend.add(Key::Line(self.pen(k, (styles, variants)), curve.marked().then_some(styles + k)), &curve.name);
+            }
+        } else {
+            self.names().iter().enumerate().for_each(|(k, name)| {
+                legend.add(Key::Line(Pen::solid(style::curve_color(k), style::CURVE_WIDTH), None), name);
+            });
+        }
+        for (k, name) in variants.iter().enumerate() {
+            legend.add(Key::Line(Pen { dash: style::curve_dash(k), ..Pen::solid(style::INK, 1.2) }, None), name);
         }
         if self.curves.len() < 2 || legend.is_empty() {
             return 0.0;

@@ -4,6 +4,7 @@
 //! the letters as outlines of a font compiled into the binary, so it looks the same everywhere. Writing the file is the caller's business.
 
 mod axis;
+mod bars;
 mod canvas;
 mod contour;
 mod contour_label;
@@ -11,14 +12,17 @@ mod field;
 mod legend;
 mod lines;
 mod panel;
+mod phasors;
 mod raster;
 mod root_locus;
 mod style;
 mod text;
 
 pub use axis::{Axis, Scale};
+pub use bars::{BarPanel, Bars};
 pub use contour::{Contour, Node};
 pub use lines::{Band, Curve, LinePanel, Lines, Markers};
+pub use phasors::{Phasor, PhasorPanel, Phasors};
 pub use root_locus::{Locus, RootLocus};
 
 use canvas::Lettering;
@@ -33,6 +37,10 @@ pub enum Figure {
     Lines(Lines),
     /// Eigenvalues in the complex plane.
     RootLocus(RootLocus),
+    /// Shapes of modes.
+    Phasors(Phasors),
+    /// What matters most.
+    Bars(Bars),
 }
 
 impl Figure {
@@ -46,6 +54,8 @@ impl Figure {
             Self::Contour(figure) => figure.draw(lettering),
             Self::Lines(figure) => figure.draw(lettering),
             Self::RootLocus(figure) => figure.draw(lettering),
+            Self::Phasors(figure) => figure.draw(lettering),
+            Self::Bars(figure) => figure.draw(lettering),
         }
     }
 

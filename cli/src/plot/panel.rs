@@ -83,12 +83,17 @@ impl Panel {
         (place.0.is_finite() && place.1.is_finite()).then_some(place)
     }
 
+    /// Vertical grid lines at the major ticks.
+    pub(super) fn draw_columns(&self, canvas: &mut Canvas) {
+        for (value, _) in &self.x.ticks.major {
+            canvas.line((self.x(*value), self.frame.y), (self.x(*value), self.frame.bottom()), Pen::solid(style::GRID, 0.7));
+        }
+    }
+
     /// Grid lines at the major ticks, and a stronger line where y is zero.
     pub(super) fn draw_grid(&self, canvas: &mut Canvas) {
         let pen = Pen::solid(style::GRID, 0.7);
-        for (value, _) in &self.x.ticks.major {
-            canvas.line((self.x(*value), self.frame.y), (self.x(*value), self.frame.bottom()), pen);
-        }
+        self.draw_columns(canvas);
         for (value, _) in &self.y.ticks.major {
             canvas.line((self.frame.x, self.y(*value)), (self.frame.right(), self.y(*value)), pen);
         }
@@ -98,16 +103,28 @@ impl Panel {
         }
     }
 
-    /// Frame and ticks, which point inwards on all four sides.
-    pub(super) fn draw_frame(&self, canvas: &mut Canvas) {
-        let Rect { x: left, y: top, .. } = self.frame;
-        let (right, bottom) = (self.frame.right(), self.frame.bottom());
+    /// Frame of a panel whose rows have names instead of values: ticks of the horizontal axis, and a line where it is zero.
+    pub(super) fn draw_zero_and_frame(&self, canvas: &mut Canvas) {
+        canvas.line((self.x(0.0), self.frame.y), (self.x(0.0), self.frame.bottom()), Pen::solid(style::INK, 0.9));
+        self.draw_x_ticks(canvas);
+        canvas.rect(self.frame, None, Some(Pen::solid(style::INK, style::FRAME_WIDTH)));
+    }
+
+    fn draw_x_ticks(&self, canvas: &mut Canvas) {
+        let (top, bottom) = (self.frame.y, self.frame.bottom());
         let pen = Pen::solid(style::INK, 0.7);
         for (value, length) in lengths(&self.x.ticks) {
             let x = self.x(value);
             canvas.line((x, bottom), (x, bottom - length), pen);
             canvas.line((x, top), (x, top + length), pen);
         }
+    }
+
+    /// Frame and ticks, which point inwards on all four sides.
+    pub(super) fn draw_frame(&self, canvas: &mut Canvas) {
+        let (left, right) = (self.frame.x, self.frame.right());
+        let pen = Pen::solid(style::INK, 0.7);
+        self.draw_x_ticks(canvas);
         for (value, length) in lengths(&self.y.ticks) {
             let y = self.y(value);
             canvas.line((left, y), (left + length, y), pen);

@@ -19,6 +19,8 @@ pub struct Locus {
     pub points: Vec<(f64, f64)>,
     /// The first point is that of the first value of the sweep, and marked.
     pub begins: bool,
+    /// Which of [`RootLocus::variants`]; 0 where there are none.
+    pub variant: usize,
 }
 
 /// Eigenvalues along a sweep.
@@ -30,6 +32,8 @@ pub struct RootLocus {
     pub branches: Vec<Locus>,
     /// What is prescribed at the first value of the sweep, for the legend; empty without a sweep.
     pub first: String,
+    /// Names of variants, the base first; empty where there is only one. Their paths differ in dashes.
+    pub variants: Vec<String>,
 }
 
 /// Height of the drawing area.
@@ -90,7 +94,9 @@ impl RootLocus {
     /// Names of oscillations, then the others, each once.
     fn names(&self) -> Vec<&str> {
         let oscillates = |b: &&Locus| b.points.iter().filter(|p| p.1 > 0.0).count() * 2 > b.points.len();
-        let (oscillations, others): (Vec<&Locus>, Vec<&Locus>) = self.branches.iter().partition(oscillates);
+        let (oscillations, mut others): (Vec<&Locus>, Vec<&Locus>) = self.branches.iter().partition(oscillates);
+        // dashes belong to the variants: no more names than colors, real modes least of all
+        others.retain(|_| self.variants.is_empty());
         let mut names: Vec<&str> = Vec::new();
         for branch in oscillations.into_iter().chain(others) {
             if !names.contains(&branch.name.as_str()) {
@@ -110,15 +116,20 @@ impl RootLocus {
         self.names().into_iter().filter(visible).collect()
     }
 
+    /// Variants differ in dashes; where there are none, dashes tell apart what has run out of colors.
+    fn dash(&self, branch: &Locus, style: usize) -> &'static str {
+        if self.variants.is_empty() { style::round_dash(style) } else { style::curve_dash(branch.variant) }
+    }
+
     fn draw_branches(&self, canvas: &mut Canvas, panel: &Panel) {
         let shown = self.shown(panel);
         let few = self.branches.iter().map(|b| b.points.len()).max().unwrap_or(0) <= 100;
         for branch in &self.branches {
             let Some(style) = shown.iter().position(|n| *n == branch.name) else { continue };
-            let pen = pen(style);
+            let pen = Pen { dash: self.dash(branch, style), ..pen(style) };
             let run: Vec<_> = branch.points.iter().filter_map(|&p| panel.place(p)).collect();
             canvas.polyline(&run, Pen { width: 1.2, ..pen });
-            if few {
+            if few && branch.variant == 0 {
                 run.iter().for_each(|&p| canvas.disc(p, 0.55 * style::MARKER, pen.color, Pen::solid(pen.color, 0.3)));
             }
         }
@@ -134,7 +145,10 @@ impl RootLocus {
     fn draw_legend(&self, canvas: &mut Canvas, panel: &Panel) -> f64 {
         let mut legend = Legend::default();
         for (k, name) in self.shown(panel).into_iter().enumerate() {
-            legend.add(Key::Line(pen(k), None), name);
+            legend.add(Key::Line(Pen { dash: if self.variants.is_empty() { pen(k).dash } else { "" }, ..pen(k) }, None), name);
+        }
+        for (k, name) in self.variants.iter().enumerate() {
+            legend.add(Key::Line(Pen { dash: style::curve_dash(k), ..Pen::solid(style::INK, 1.2) }, None), name);
         }
         if !self.first.is_empty() {
             legend.add(Key::Ring, &self.first);

@@ -1,20 +1,18 @@
 //! From text to a system: everything that is wrong is said at once.
 
-use super::description::{BaseDescription, Description, schema};
+use super::blueprint::Blueprint;
+use super::description::{BaseDescription, Description};
 use super::{Kinds, Site, closing, tree};
 use crate::constraint::Constraint;
 use crate::description::Library;
 use crate::description::document::Document;
 use crate::description::finding::{Finding, Findings};
-use crate::description::quantity::parse_quantity;
-use crate::description::schema::Schema;
-use crate::description::urdf::{self, Robot};
+use crate::description::urdf::Robot;
 use crate::dynamics::System;
 use crate::force::Force;
 use crate::model::{Model, ModelBuilder};
 use crate::spatial::Vec3;
 use crate::stage::Workspace;
-use serde_json::Value;
 use std::sync::Arc;
 
 /// A system that was read from files.
@@ -44,51 +42,23 @@ pub type Override = (String, String);
 /// `file` is the name of the description in the library; names inside it are handed to the library as they stand. Errors and
 /// warnings of all files come back together; the system is there where no error is among them.
 pub fn assemble(file: &str, library: &dyn Library, kinds: &Kinds, overrides: &[Override]) -> (Option<Assembled>, Findings) {
-    let mut findings = Findings::new();
-    let Some(text) = library.text(file) else {
-        findings.push(Finding::error("missing_file", format!("file `{file}` was not found")));
-        return (None, findings);
-    };
-    let mut document = match Document::parse(file, &text) {
-        Ok(document) => document,
-        Err(errors) => return (None, errors),
-    };
-    if document.value().is_null() {
-        let finding = Finding::error("empty_file", "the description is empty").in_file(file);
-        return (None, finding.with_hint("`fastbike`, `name`, `urdf` and `base` are needed at least").into());
-    }
-    let (of_tree, of_elements): (Vec<&Override>, Vec<&Override>) = overrides.iter().partition(|o| is_tree_path(&o.0));
-    for (path, value) in of_elements {
-        override_entry(&mut document, path, value, &mut findings);
-    }
-    match Schema::new(&schema(kinds)) {
-        Ok(schema) => findings.extend(schema.check(&document)),
-        Err(errors) => findings.extend(errors),
-    }
-    let robot = read_tree(&document, library, &of_tree, &mut findings);
-    if findings.has_errors() {
-        return (None, findings.sorted());
-    }
-    let description: Description = match document.read("") {
-        Ok(description) => description,
-        Err(errors) => {
-            findings.extend(errors);
-            return (None, findings.sorted());
-        }
-    };
-    let Some(robot) = robot else { return (None, findings.sorted()) };
-    let assembled = join(description, robot, library, kinds, &document, &mut findings);
-    (assembled.filter(|_| !findings.has_errors()), findings.sorted())
+    let (blueprint, mut findings) = Blueprint::read(file, library, kinds, overrides);
+    let assembled = blueprint.and_then(|b| b.assemble(library, kinds, &mut findings));
+    (assembled, findings.sorted())
 }
 
 /// A plain URDF as a system without elements, on a fixed, free or vehicle base.
 pub fn assemble_urdf(file: &str, text: &str, base: BaseDescription, gravity: f64, overrides: &[Override]) -> (Option<Assembled>, Findings) {
-    let (robot, mut findings) = urdf::read(file, text);
-    let Some(mut robot) = robot else { return (None, findings) };
-    change_tree(&mut robot, &overrides.iter().collect::<Vec<_>>(), &mut findings);
+    let (blueprint, mut findings) = Blueprint::read_urdf(file, text, (base, gravity), overrides);
+    let assembled = blueprint.and_then(|b| bare(b.into_robot(), (base, gravity), &mut findings));
+    (assembled.filter(|_| !findings.has_errors()), findings.sorted())
+}
+
+/// A tree without elements becomes a system.
+pub(super) fn bare(robot: Robot, (base, gravity): (BaseDescription, f64), findings: &mut Findings) -> Option<Assembled> {
     let down = Vec3::new(0.0, 0.0, -gravity);
-    let model = tree::model(&robot, base, &Default::default(), down, &|_, _| {}, &mut findings);
-    let assembled = model.and_then(|model| match System::new(model, Vec::new()) {
+    let model = tree::model(&robot, base, &Default::default(), down, &|_, _| {}, findings)?;
+    match System::new(model, Vec::new()) {
         Ok(system) => Some(Assembled {
             name: robot.name.clone(),
             about: String::new(),
@@ -102,107 +72,11 @@ pub fn assemble_urdf(file: &str, text: &str, base: BaseDescription, gravity: f64
             findings.push(Finding::error("signal_clash", error.to_string()));
             None
         }
-    });
-    (assembled.filter(|_| !findings.has_errors()), findings.sorted())
-}
-
-/// Whether an override goes to the URDF: `link.…`, or `joint.<name>.…` other than the joint options of the description.
-fn is_tree_path(path: &str) -> bool {
-    let option = [".locked", ".kind", ".pitch"].iter().any(|o| path.ends_with(o));
-    path.starts_with("link.") || (path.starts_with("joint.") && !option)
-}
-
-/// Reads the URDF that the description names and applies overrides to it.
-fn read_tree(document: &Document, library: &dyn Library, overrides: &[&Override], findings: &mut Findings) -> Option<Robot> {
-    let name = document.value().get("urdf")?.as_str()?;
-    let Some(text) = library.text(name) else {
-        findings.push(document.locate(Finding::error("missing_file", format!("file `{name}` was not found")).at_path("urdf")));
-        return None;
-    };
-    let (robot, of_urdf) = urdf::read(name, &text);
-    let held = |f: &Finding| f.code == "massless_tip" && robot.as_ref().is_some_and(|r| is_held(document.value(), r, &f.path));
-    findings.extend(of_urdf.iter().filter(|f| !held(f)).cloned());
-    let mut robot = robot?;
-    change_tree(&mut robot, overrides, findings);
-    Some(robot)
-}
-
-/// Whether a constraint holds the massless link of a path `link.<name>`, or one behind it: its motion follows from the others then.
-fn is_held(description: &Value, robot: &Robot, path: &str) -> bool {
-    let Some(link) = path.strip_prefix("link.") else { return false };
-    let mut links = Vec::new();
-    constrained_links(description.get("constraints").unwrap_or(&Value::Null), &mut links);
-    links.iter().any(|&held| {
-        let mut at = held;
-        loop {
-            if at == link {
-                return true;
-            }
-            match robot.joints.iter().find(|j| j.child == at) {
-                Some(joint) => at = &joint.parent,
-                None => return false,
-            }
-        }
-    })
-}
-
-/// All values under a key `link`.
-fn constrained_links<'a>(value: &'a Value, links: &mut Vec<&'a str>) {
-    if let Some(entries) = value.as_object() {
-        links.extend(entries.get("link").and_then(Value::as_str));
-        entries.values().for_each(|v| constrained_links(v, links));
-    }
-}
-
-/// Applies overrides to a tree. What is wrong only now is the fault of the overrides, not of the text.
-fn change_tree(robot: &mut Robot, overrides: &[&Override], findings: &mut Findings) {
-    if overrides.is_empty() {
-        return;
-    }
-    let before = robot.check();
-    for (path, value) in overrides {
-        set_tree_entry(robot, path, value, findings);
-    }
-    let changes = overrides.iter().map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>().join(" ");
-    for finding in robot.check().iter().filter(|f| before.iter().all(|b| b.message != f.message)) {
-        let nowhere = Finding { line: None, column: None, excerpt: None, ..finding.clone() };
-        findings.push(nowhere.in_file(&changes));
-    }
-}
-
-fn set_tree_entry(robot: &mut Robot, path: &str, text: &str, findings: &mut Findings) {
-    let done = robot.dimension_of(path).and_then(|dimension| match parse_quantity(text, dimension) {
-        Ok(value) => robot.set(path, value),
-        Err(error) => Err(Finding::error(error.code(), error.to_string()).at_path(path).with_hint_from(error.hint()).into()),
-    });
-    if let Err(errors) = done {
-        findings.extend(errors);
-    }
-}
-
-/// Overrides an entry of the description; `joint.<name>.locked` stands under `joints` there, also where the description has no
-/// word about this joint.
-fn override_entry(document: &mut Document, path: &str, text: &str, findings: &mut Findings) {
-    let (mut path, mut text) = (path.to_owned(), text.to_owned());
-    if let Some((joint, option)) = path.strip_prefix("joint.").and_then(|rest| rest.rsplit_once('.')) {
-        let entry = format!("joints.{joint}");
-        if document.get(&entry).is_some() {
-            path = format!("{entry}.{option}");
-        } else {
-            match Document::parse(document.file(), "joints: {}") {
-                Ok(empty) => document.merge(empty),
-                Err(errors) => findings.extend(errors),
-            }
-            (path, text) = (entry, format!("{{ {option}: {text} }}"));
-        }
-    }
-    if let Err(errors) = document.set(&path, &text) {
-        findings.extend(errors);
     }
 }
 
 /// Tree and elements become a system.
-fn join(
+pub(super) fn join(
     description: Description,
     robot: Robot,
     library: &dyn Library,

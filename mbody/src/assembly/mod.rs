@@ -3,6 +3,7 @@
 //! The registry is a value, [`Kinds`]: `Kinds::standard().with(other_crate::KINDS)`, never a global.
 
 mod assembled;
+mod blueprint;
 pub mod characteristic;
 mod closing;
 mod constraints;
@@ -13,6 +14,7 @@ mod site;
 mod tree;
 
 pub use assembled::{Assembled, Override, assemble, assemble_urdf};
+pub use blueprint::{Blueprint, Entry};
 pub use constraints::{ConstraintDescription, ConstraintKind, STANDARD_CONSTRAINTS};
 pub use description::{BaseDescription, Description, schema};
 pub use elements::STANDARD;

@@ -114,7 +114,8 @@ pub struct EngineDescription {
     /// Ratios between engine and wheel.
     gears: GearsDescription,
     /// The gear that is engaged, from 1; the last one where left out.
-    gear: Option<PositiveQuantity<Number>>,
+    #[schemars(range(min = 1))]
+    gear: Option<u32>,
     /// Torque over throttle and speed.
     map: Option<EngineMapDescription>,
     /// Highest speed of the engine.
@@ -125,18 +126,17 @@ pub struct EngineDescription {
 
 impl GearsDescription {
     /// Gear that is engaged, and engine turns per turn of the wheel.
-    fn engaged(&self, gear: Option<f64>, site: &mut Site<'_>) -> Option<(usize, f64)> {
+    fn engaged(&self, gear: Option<u32>, site: &mut Site<'_>) -> Option<(usize, f64)> {
         let count = self.ratios.len();
         if count == 0 {
             site.refuse("gears.ratios", "out_of_range", "the gearbox has no gears");
             return None;
         }
-        let gear = gear.unwrap_or(count as f64);
-        if gear.fract() != 0.0 || gear < 1.0 || gear > count as f64 {
+        let gear = gear.map_or(count, |g| g as usize);
+        if !(1..=count).contains(&gear) {
             site.refuse("gear", "out_of_range", format!("gear {gear} does not exist: the gears are 1 to {count}"));
             return None;
         }
-        let gear = gear as usize;
         let primary = self.primary.map_or(1.0, Quantity::si);
         Some((gear, primary * self.ratios[gear - 1].si() * self.r#final.si()))
     }
@@ -167,7 +167,7 @@ impl ElementDescription for EngineDescription {
     type Law = Engine;
     fn assemble(self, site: &mut Site<'_>) -> Option<Engine> {
         let wheel = site.joint_with("wheel", &self.wheel, "rad");
-        let engaged = self.gears.engaged(self.gear.map(Quantity::si), site);
+        let engaged = self.gears.engaged(self.gear, site);
         let map = match self.map {
             Some(description) => Some(description.map(site)?),
             None => None,

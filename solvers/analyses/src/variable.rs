@@ -85,6 +85,11 @@ impl Variables {
         }
     }
 
+    /// Numbers of unknowns, inputs and outputs.
+    pub fn counts(&self) -> (usize, usize, usize) {
+        (self.unknowns.len(), self.inputs.len(), self.outputs.len())
+    }
+
     /// All names, sorted, without rates.
     pub fn names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = self.by_name.keys().map(String::as_str).filter(|n| !n.starts_with("rate(")).collect();

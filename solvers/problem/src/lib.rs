@@ -8,6 +8,7 @@
 mod algebraic;
 mod controller;
 mod error;
+mod family;
 mod integration;
 mod matrix;
 mod mode;
@@ -19,6 +20,7 @@ mod signal;
 pub use algebraic::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound};
 pub use controller::{Answer, AnswerAlong, Controller};
 pub use error::EvalError;
+pub use family::{Family, Member, NoMember, Parameter, ParameterId};
 pub use integration::{
     AlgebraicErrors, DaeMethod, DaeProblem, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink,
 };

@@ -185,6 +185,18 @@ impl Document {
         Ok(())
     }
 
+    /// Changes an entry that is there to a number in SI; its place in the text stays that of the old value.
+    pub fn put(&mut self, pointer: &str, value: f64) {
+        if let Some(entry) = self.value.pointer_mut(pointer) {
+            *entry = value.into();
+        }
+    }
+
+    /// The shortest path that names the entry at a JSON pointer, without section and tag where that is enough.
+    pub fn path_of(&self, pointer: &str) -> String {
+        self.short(pointer)
+    }
+
     /// Lays another document over this one: entries are joined, everything else is replaced, `null` removes (RFC 7386).
     pub fn merge(&mut self, overlay: Self) {
         let shift = self.sources.len();

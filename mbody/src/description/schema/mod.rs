@@ -11,10 +11,12 @@ mod branch;
 mod doubt;
 mod keyword;
 mod message;
+mod walk;
 
 use super::document::{About, Document};
 use super::finding::{Finding, Findings};
-use super::quantity::KEYWORD;
+use super::quantity::dimension::Number as PureNumber;
+use super::quantity::{Dimension, Dimensioned, KEYWORD};
 use jsonschema::error::ValidationErrorKind;
 use jsonschema::{ValidationError, Validator};
 use schemars::JsonSchema;
@@ -25,6 +27,17 @@ use serde_json::Value;
 pub struct Schema {
     root: Value,
     validator: Validator,
+}
+
+/// A number of a document, as its schema knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// JSON pointer.
+    pub pointer: String,
+    /// What it measures.
+    pub dimension: &'static Dimension,
+    /// What the schema says it is.
+    pub about: String,
 }
 
 /// A mistake before its pointer is turned into a line.
@@ -77,6 +90,21 @@ impl Schema {
         mistakes.map(|m| document.located(m.finding, &m.pointer, m.about)).collect::<Findings>().sorted()
     }
 
+    /// Every entry of a value that is a quantity or a number other than a count, in the order of the text.
+    pub fn numbers(&self, value: &Value) -> Vec<Number> {
+        let mut found: Vec<Number> = Vec::new();
+        walk::walk(&self.root, value, &mut |met| {
+            let plain = met.value.is_number() && allows(met.schema, "number");
+            let dimension = message::dimension_of(met.schema).or(plain.then_some(PureNumber::DIMENSION));
+            let Some(dimension) = dimension.filter(|_| met.value.is_number() || met.value.is_string()) else { return true };
+            if !found.iter().any(|n| n.pointer == met.pointer) {
+                found.push(Number { pointer: met.pointer.to_owned(), dimension, about: met.about.to_owned() });
+            }
+            false
+        });
+        found
+    }
+
     /// The part of the schema at a pointer.
     fn part(&self, pointer: &str) -> &Value {
         self.root.pointer(pointer).unwrap_or(&Value::Null)
@@ -101,6 +129,15 @@ impl Schema {
             }
         }
         mistakes
+    }
+}
+
+/// Whether a schema lets a value be of a type.
+fn allows(schema: &Value, kind: &str) -> bool {
+    match schema.get("type") {
+        Some(Value::String(name)) => name == kind,
+        Some(Value::Array(names)) => names.iter().any(|n| n == kind),
+        _ => false,
     }
 }
 

@@ -16,4 +16,4 @@ mod system;
 
 pub use continuation::{TrimPoint, Walk};
 pub use roles::{Role, Trim, TrimError};
-pub use system::TrimProblem;
+pub use system::{Rows, TrimProblem};

@@ -17,6 +17,13 @@ pub(super) enum Row {
     Condition(usize),
 }
 
+/// Which rows a trim solves, and which it leaves out.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    solved: Vec<Row>,
+    implied: Vec<Row>,
+}
+
 /// The trim of one plant as an algebraic problem.
 pub struct TrimProblem<'p> {
     pub(super) plant: &'p mut dyn Plant,
@@ -78,6 +85,29 @@ impl<'p> TrimProblem<'p> {
     /// # Errors
     /// Ties that run in circles, too few or too many conditions, undetermined unknowns (in signal names).
     pub fn new(plant: &'p mut dyn Plant, trim: &Trim) -> Result<Self, TrimError> {
+        let mut problem = Self::without_rows(plant, trim)?;
+        problem.choose_rows()?;
+        Ok(problem)
+    }
+
+    /// The same trim of another plant with the same signals: the rows that were chosen before, nothing checked again.
+    ///
+    /// # Errors
+    /// Ties that run in circles.
+    pub fn with_rows(plant: &'p mut dyn Plant, trim: &Trim, rows: &Rows) -> Result<Self, TrimError> {
+        let mut problem = Self::without_rows(plant, trim)?;
+        (problem.rows, problem.implied) = (rows.solved.clone(), rows.implied.clone());
+        problem.equation_scale = problem.rows.iter().map(|&r| problem.row_scale(r)).collect();
+        Ok(problem)
+    }
+
+    /// The rows that were chosen, for [`TrimProblem::with_rows`].
+    pub fn rows(&self) -> Rows {
+        Rows { solved: self.rows.clone(), implied: self.implied.clone() }
+    }
+
+    /// Everything but the choice of the rows.
+    fn without_rows(plant: &'p mut dyn Plant, trim: &Trim) -> Result<Self, TrimError> {
         let (ny, nu, nf, nz) = (plant.unknowns().len(), plant.inputs().len(), plant.equations().len(), plant.outputs().len());
         let mut unknowns = Vec::new();
         let mut guess = Vec::new();
@@ -130,7 +160,6 @@ impl<'p> TrimProblem<'p> {
                 *entry = 1.0;
             }
         }
-        problem.choose_rows()?;
         Ok(problem)
     }
 

@@ -1,11 +1,15 @@
 //! Modes: a table per point, JSON, CSV.
 
+mod sensitivity;
+mod versus;
+
 use super::number::{aligned, number};
 use super::palette::styled;
-use super::report::{Given, Report};
+use super::report::{Beside, Given, Point, Report};
 use super::{Options, csv, table};
+use analyses::sensitivity::Estimate;
 use nalgebra::Complex;
-use problem::Signal;
+use problem::{Parameter, Signal};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 use std::io;
@@ -25,6 +29,24 @@ pub struct NamedMode {
     pub participation: Vec<f64>,
     /// Deviation of each of [`ModesAlong::shape_signals`]; empty where nobody asked for it.
     pub shape: Vec<Complex<f64>>,
+    /// How the eigenvalue moves with parameters, those that matter most first; empty where nobody asked for it.
+    pub sensitivity: Vec<Slope>,
+}
+
+/// How an eigenvalue moves with a parameter.
+#[derive(Clone, Debug)]
+pub struct Slope {
+    /// The parameter with its value.
+    pub parameter: Parameter,
+    /// ds/dp, in 1/s per unit of the parameter; the error is absolute.
+    pub by: Estimate<Complex<f64>>,
+}
+
+impl Slope {
+    /// Change of the eigenvalue per change of the parameter by all of itself, 1/s.
+    pub fn relative(&self) -> Complex<f64> {
+        self.by.value * self.parameter.value
+    }
 }
 
 impl NamedMode {
@@ -90,6 +112,8 @@ pub struct ModesAlong {
     pub points: Vec<Result<PointModes, String>>,
     /// Signals of the shapes; empty where nobody asked for shapes.
     pub shape_signals: Vec<Signal>,
+    /// Which of these are displacements of the shape, as opposed to rates and to wheels that turn.
+    pub displacements: Vec<bool>,
     /// Paths of the modes along the first swept quantity.
     pub branches: Vec<Branch>,
     /// Index of that quantity among the given ones.
@@ -154,13 +178,31 @@ fn mode(along: &ModesAlong, point: &PointModes, mode: &NamedMode) -> Value {
         let shape: Map<String, Value> = entries.map(|(s, z)| (s.name.to_string(), json!({ "re": z.re, "im": z.im }))).collect();
         object["shape"] = shape.into();
     }
+    if !mode.sensitivity.is_empty() {
+        let slopes = mode.sensitivity.iter().map(|s| {
+            json!({
+                "parameter": s.parameter.name, "value": s.parameter.value, "unit": s.parameter.unit,
+                "re": s.by.value.re, "im": s.by.value.im, "error": s.by.error,
+            })
+        });
+        object["sensitivity"] = slopes.collect::<Vec<_>>().into();
+    }
     object
 }
 
-/// One line per mode and point.
+/// Points with their modes, of the base and of every variant that has some.
+fn tagged<'a>(report: &'a Report, along: &'a ModesAlong) -> impl Iterator<Item = (&'a str, &'a [Point], &'a ModesAlong)> {
+    let variants = report.variants.iter().filter_map(|v| match &v.beside {
+        Beside::Modes(modes) => Some((v.name.as_str(), v.points.as_slice(), modes)),
+        _ => None,
+    });
+    std::iter::once(("base", report.points.as_slice(), along)).chain(variants)
+}
+
+/// One line per mode and point; a first column tells variants apart, where there are any.
 pub(super) fn write_csv(report: &Report, along: &ModesAlong, out: &mut dyn io::Write) -> io::Result<()> {
     let mut signals: Vec<&String> = Vec::new();
-    for signal in along.points.iter().flatten().flat_map(|p| &p.signals) {
+    for signal in tagged(report, along).flat_map(|(_, _, along)| &along.points).flatten().flat_map(|p| &p.signals) {
         if !signals.contains(&signal) {
             signals.push(signal);
         }
@@ -168,8 +210,10 @@ pub(super) fn write_csv(report: &Report, along: &ModesAlong, out: &mut dyn io::W
     let mut table = ::csv::Writer::from_writer(out);
     let given = report.given.iter().map(|g| format!("given.{}", g.name));
     let columns = ["ending", "name", "re", "im", "frequency_hz", "damped_frequency_hz", "damping_ratio", "confidence"].map(str::to_owned);
-    table.write_record(given.chain(columns).chain(signals.iter().map(|s| format!("participation.{s}"))))?;
-    for (at, point) in report.points.iter().zip(&along.points) {
+    let tag = |name: &str| (!report.variants.is_empty()).then(|| name.to_owned()).into_iter();
+    table.write_record(tag("variant").chain(given).chain(columns).chain(signals.iter().map(|s| format!("participation.{s}"))))?;
+    let all = tagged(report, along).flat_map(|(name, points, along)| points.iter().zip(&along.points).map(move |(at, p)| (name, at, p)));
+    for (name, at, point) in all {
         let Ok(point) = point else { continue };
         for mode in &point.modes {
             let given = at.given.iter().map(|v| csv::cell(*v));
@@ -178,7 +222,7 @@ pub(super) fn write_csv(report: &Report, along: &ModesAlong, out: &mut dyn io::W
                 [mode.value.re, mode.value.im, mode.natural_frequency(), mode.damped_frequency(), mode.damping_ratio, mode.confidence];
             let share = |s: &&String| point.signals.iter().position(|p| p == *s).map_or(f64::NAN, |k| mode.participation[k]);
             let shares = signals.iter().map(|s| csv::cell(share(s)));
-            table.write_record(given.chain(words).chain(numbers.map(csv::cell)).chain(shares))?;
+            table.write_record(tag(name).chain(given).chain(words).chain(numbers.map(csv::cell)).chain(shares))?;
         }
     }
     table.flush()
@@ -209,7 +253,7 @@ pub(super) fn write_table(report: &Report, along: &ModesAlong, options: &Options
         let text = format!("  {}: {} becomes {}", names.join(", "), critical.name, stability(critical));
         writeln!(out, "{}", styled(if critical.becomes_stable { palette.good } else { palette.caution }, &text))?;
     }
-    Ok(())
+    versus::write(report, along, options, out)
 }
 
 /// The columns with numbers.
@@ -247,7 +291,7 @@ fn write_point(along: &ModesAlong, point: &PointModes, options: &Options, out: &
     if !along.shape_signals.is_empty() {
         point.modes.iter().try_for_each(|mode| write_shape(along, mode, options, out))?;
     }
-    Ok(())
+    point.modes.iter().filter(|m| !m.sensitivity.is_empty()).try_for_each(|mode| sensitivity::write(mode, options, out))
 }
 
 /// Magnitudes and phases of what moves in a mode.

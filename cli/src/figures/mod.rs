@@ -1,0 +1,3 @@
+//! From reports to figures: what an engineer expects to see.
+
+pub mod modes;
