@@ -241,7 +241,10 @@ const MOST_POINTS: f64 = 1e6;
 
 /// First guess of the heave at rest, m: tires that merely touch the road carry nothing, and a vehicle that they do not carry would
 /// find its balance on one wheel.
-const FIRST_HEAVE: f64 = -0.01;
+const FIRST_HEAVE: f64 = -0.005;
+
+/// States of tires that are zero where a vehicle stands upright.
+const LATERAL_STATES: [&str; 3] = [".carcass_lateral", ".lagged_lateral_force", ".lagged_lateral_slip"];
 
 /// Braking that is easy at every speed, m/s².
 const EASY_BRAKING: f64 = -3.0;
@@ -323,7 +326,7 @@ impl Request {
         fix_if_there(&mut trim, "steer.angle", 0.0)?;
         for unknown in plant.unknowns() {
             let name = &unknown.signal.name;
-            if unknown.kind == UnknownKind::State && (name.ends_with(".carcass_lateral") || name.ends_with(".lateral_lag")) {
+            if unknown.kind == UnknownKind::State && LATERAL_STATES.iter().any(|state| name.ends_with(state)) {
                 fix_if_there(&mut trim, name, 0.0)?;
             }
         }

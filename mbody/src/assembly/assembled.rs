@@ -117,6 +117,7 @@ pub(super) fn join(
             model: &model,
             design: &design.world,
             locked: &locked,
+            constraints: &closed.constraints,
             library,
             findings: &mut of_elements,
             left_out: None,
@@ -177,7 +178,8 @@ fn constraints(
         let Some((tag, parameters)) = closing::entry(value) else { continue };
         let Some(kind) = kinds.constraint(tag) else { continue };
         let path = format!("constraints.{name}.{tag}");
-        let mut site = Site { element: name, path, model, design: &before.world, locked, library, findings, left_out: None };
+        let mut site =
+            Site { element: name, path, model, design: &before.world, locked, constraints: &[], library, findings, left_out: None };
         built.extend((kind.build)(&mut site, parameters));
         named.push((name.clone(), tag.to_owned()));
     }

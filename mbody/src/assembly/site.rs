@@ -1,5 +1,6 @@
 //! Where an element is built: names become bodies here, and findings get their place in the file.
 
+use crate::constraint::Constraint;
 use crate::description::Library;
 use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::quantity::{Quantity, dimension::Length};
@@ -26,6 +27,7 @@ pub struct Site<'a> {
     pub(super) model: &'a Model,
     pub(super) design: &'a World<f64>,
     pub(super) locked: &'a [String],
+    pub(super) constraints: &'a [Constraint],
     pub(super) library: &'a dyn Library,
     pub(super) findings: &'a mut Findings,
     pub(super) left_out: Option<String>,
@@ -85,6 +87,17 @@ impl<'a> Site<'a> {
                 None
             }
         }
+    }
+
+    /// A constraint, by the name the user gave; elements see all of them.
+    pub fn constraint(&mut self, key: &str, name: &str) -> Option<&'a Constraint> {
+        let constraints = self.constraints;
+        if let Some(found) = constraints.iter().find(|c| c.name() == name) {
+            return Some(found);
+        }
+        let hint = suggestion(name, constraints.iter().map(Constraint::name));
+        self.find(key, Finding::error("unknown_constraint", format!("constraint `{name}` does not exist")).with_hint_from(hint));
+        None
     }
 
     /// The body a link belongs to, and the pose of the link in that body.

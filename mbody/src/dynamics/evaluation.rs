@@ -209,6 +209,8 @@ impl<S: SystemScalar> Evaluation<S> {
                 state_rates: &self.yd[states.clone()],
                 inputs: &self.u,
                 input_map: &element.inputs,
+                multipliers: &self.y[system.base_unknowns.len()..],
+                multiplier_map: &element.multipliers,
             };
             let mut out = Effort {
                 model,
@@ -252,6 +254,8 @@ impl<S: SystemScalar> Evaluation<S> {
             state_rates: &self.yd[states],
             inputs: &self.u,
             input_map: &element.inputs,
+            multipliers: &self.y[system.base_unknowns.len()..],
+            multiplier_map: &element.multipliers,
         };
         element.force.energy(&at)
     }

@@ -5,7 +5,7 @@
 //! [ J   0  ] [ λ ] = [ −γ  ]
 //! ```
 //!
-//! Without element states, and where no element depends on accelerations, M comes from CRBA and J from the wrenches of unit
+//! Without element states, and where no element depends on accelerations or multipliers, M comes from CRBA and J from the wrenches of unit
 //! multipliers. Else the whole is solved by Newton's method with exact derivatives, rows of elements included.
 //! Source: Featherstone (2008), section 8.2; E. J. Haug (1989), section 11.2.
 
@@ -56,7 +56,8 @@ struct Newton {
 impl ExplicitSolver {
     pub(super) fn new(system: &Arc<System>) -> Self {
         let mut plant = TreePlant::in_formulation(system.clone(), Formulation::Acceleration { decay: 0.0 });
-        let way = match system.state_count == 0 && !depends_on_accelerations(&mut plant) {
+        let reads = system.elements.iter().any(|e| !e.multipliers.is_empty());
+        let way = match system.state_count == 0 && !reads && !depends_on_accelerations(&mut plant) {
             true => Way::Direct(Box::new(Direct::new(system))),
             false => Way::Newton(Box::new(Newton::new(&plant))),
         };

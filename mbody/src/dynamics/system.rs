@@ -23,6 +23,8 @@ pub struct Element {
     pub inputs: Vec<usize>,
     /// Its outputs among all outputs.
     pub outputs: Range<usize>,
+    /// The multipliers that it reads, among all multipliers.
+    pub multipliers: Vec<usize>,
 }
 
 /// Why elements and a tree could not be joined.
@@ -46,6 +48,14 @@ pub enum SystemError {
         /// Unit declared by `owner`.
         second: String,
         /// Who.
+        owner: String,
+    },
+    /// An element reads the force of a constraint that holds nothing.
+    #[error("`{owner}` reads `{signal}`, but no constraint that is held has this multiplier")]
+    UnknownMultiplier {
+        /// The signal.
+        signal: String,
+        /// Who reads it.
         owner: String,
     },
     /// A limit watches a signal that does not exist.
@@ -155,6 +165,7 @@ impl System {
             system.element(force)?;
         }
         system.multipliers(&closed.held);
+        system.read_multipliers()?;
         system.constraint_inputs();
         system.form = Arc::new(Form::new(&system, Formulation::Position));
         system.check_names()?;
@@ -280,7 +291,7 @@ impl System {
         let first_output = self.outputs.len();
         self.outputs.extend(declared.outputs.iter().map(|o| Signal::new(o.name.clone(), o.unit, o.about)));
         let (states, outputs) = (first_state..self.state_count, first_output..self.outputs.len());
-        self.elements.push(Element { force, states, inputs, outputs });
+        self.elements.push(Element { force, states, inputs, outputs, multipliers: Vec::new() });
         Ok(())
     }
 
@@ -346,6 +357,18 @@ impl System {
             Multiplier { constraint, row, level: r.level, unknown, error, error_unit, nominal }
         };
         self.multipliers = held.iter().map(of).collect();
+    }
+
+    /// Which multipliers the elements read.
+    fn read_multipliers(&mut self) -> Result<(), SystemError> {
+        for element in &mut self.elements {
+            let find = |signal: &String| {
+                let found = self.multipliers.iter().position(|m| m.unknown.signal.name == *signal);
+                found.ok_or_else(|| SystemError::UnknownMultiplier { signal: signal.clone(), owner: element.force.name().into() })
+            };
+            element.multipliers = element.force.declared().multipliers.iter().map(find).collect::<Result<_, _>>()?;
+        }
+        Ok(())
     }
 
     /// Inputs of the constraints; each is the rate of the one before.

@@ -84,6 +84,8 @@ pub struct Declared {
     pub limits: Vec<LimitDeclared>,
     /// Bodies whose joint angle nothing depends on because of this element (rolling wheels).
     pub spinning: Vec<BodyIndex>,
+    /// Full signal names of the multipliers of constraints that the element reads, in the order of [`Evaluated::multiplier`].
+    pub multipliers: Vec<String>,
 }
 
 /// Energy account of an element. With P the power that its wrenches and joint efforts deliver,
@@ -113,6 +115,8 @@ pub struct Evaluated<'a, S> {
     pub(crate) state_rates: &'a [S],
     pub(crate) inputs: &'a [S],
     pub(crate) input_map: &'a [usize],
+    pub(crate) multipliers: &'a [S],
+    pub(crate) multiplier_map: &'a [usize],
 }
 
 impl<S: SystemScalar> Evaluated<'_, S> {
@@ -202,6 +206,12 @@ impl<S: SystemScalar> Evaluated<'_, S> {
     #[inline]
     pub fn input(&self, i: usize) -> S {
         self.inputs[self.input_map[i]]
+    }
+
+    /// A declared multiplier of a constraint: the force or moment with which the constraint holds.
+    #[inline]
+    pub fn multiplier(&self, i: usize) -> S {
+        self.multipliers[self.multiplier_map[i]]
     }
 }
 

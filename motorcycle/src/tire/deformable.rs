@@ -123,6 +123,7 @@ impl Deformable {
             deflection: radial,
             effective_radius,
             load,
+            support: load,
             friction,
             rolling_moment: tire.rolling_resistance.moment(load, effective_radius, wheel.spin, speed_x),
             lateral_slip: slip.lateral,

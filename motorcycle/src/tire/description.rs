@@ -1,20 +1,20 @@
 //! Written form of the tire.
 
-use super::carcass::{Elastic, RelaxationLength, RoadContact};
+use super::carcass::RoadContact;
+use super::carcass_description::{CarcassDescription, carcass};
 use super::compact_motorcycle::CompactMotorcycleParameters;
-use super::deformable::Deformable;
-use super::element::{Carcass, Tire};
+use super::element::Tire;
 use super::invalid::InvalidTireData;
 use super::law::AnyTireLaw;
 use super::linear_normalized::LinearNormalizedParameters;
 use super::magic_formula_motorcycle::MagicFormulaMotorcycleParameters;
 use super::rolling_resistance::RollingResistance;
 use super::sharp_linear::SharpLinearParameters;
-use super::vertical::{Relaxation, Vertical};
 use super::wheel::Wheel;
 use mbody::assembly::{ElementDescription, Site};
 use mbody::contact::Profile;
-use mbody::description::quantity::dimension::{Angle, Damping, Length, Number, Pressure, Speed, Stiffness};
+use mbody::description::finding::Finding;
+use mbody::description::quantity::dimension::{Angle, Length, Number, Pressure, Speed};
 use mbody::description::quantity::{Fraction, NonNegativeQuantity, PositiveQuantity, Quantity};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -24,7 +24,7 @@ pub(super) const LOW_SPEED: f64 = 0.1;
 /// Share of the compression in the effective rolling radius where nobody says otherwise.
 const EFFECTIVE_RADIUS_FRACTION: f64 = 1.0 / 3.0;
 /// Relative difference of two statements of the radius that is put down to rounding.
-const SAME_RADIUS: f64 = 1e-3;
+pub(super) const SAME_RADIUS: f64 = 1e-3;
 
 /// A tire on a wheel that rolls on the road.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -52,6 +52,7 @@ pub struct TireDescription {
     /// Speed below which slips are rounded; 0.1 m/s where left out.
     low_speed: Option<PositiveQuantity<Speed>>,
     /// Name of the road under this wheel: inputs `<road>.height` and `<road>.height_rate`; `road` where left out, which all such wheels share.
+    /// A rigid tire has none.
     road: Option<String>,
 }
 
@@ -95,116 +96,6 @@ pub struct CrownTable {
     inclination: Vec<Quantity<Angle>>,
     /// Distances of the tangent from the center.
     support: Vec<PositiveQuantity<Length>>,
-}
-
-/// Springs between rim and road.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CarcassDescription {
-    /// Springs along radius and axle of the rim: side forces build up by the deformation, forces act where the deformed tire touches.
-    Deformable(DeformableDescription),
-    /// A spring along the normal of the road, with a relaxation of slip or force.
-    Vertical(VerticalDescription),
-}
-
-/// Springs along radius and axle of the rim.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DeformableDescription {
-    /// Along the radius.
-    radial: ElasticDescription,
-    /// Along the axle; the relaxation length is the cornering stiffness over this stiffness.
-    lateral: ElasticDescription,
-    /// Along the circumference; rigid where left out.
-    longitudinal: Option<ElasticDescription>,
-}
-
-/// A spring and a damper.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ElasticDescription {
-    /// Stiffness.
-    stiffness: PositiveQuantity<Stiffness>,
-    /// Damping; more than nothing, so that a tire in the air comes to rest.
-    damping: PositiveQuantity<Damping>,
-}
-
-impl ElasticDescription {
-    fn elastic(self) -> Elastic {
-        Elastic { stiffness: self.stiffness.si(), damping: self.damping.si() }
-    }
-}
-
-/// A spring along the normal of the road.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct VerticalDescription {
-    /// Stiffness.
-    stiffness: PositiveQuantity<Stiffness>,
-    /// Growth of the force with the square of the compression, in N/m²; none where left out.
-    stiffness_quadratic: Option<NonNegativeQuantity<Pressure>>,
-    /// Damping.
-    damping: NonNegativeQuantity<Damping>,
-    /// How side forces build up; at once where left out.
-    #[serde(default)]
-    relaxation: RelaxationDescription,
-}
-
-/// How side forces build up.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum RelaxationDescription {
-    /// At once.
-    #[default]
-    None,
-    /// By a spring along the road.
-    Elastic(ElasticDescription),
-    /// By a lag of the slip.
-    Slip(SlipLagDescription),
-    /// By a lag of the side force.
-    Force(ForceLagDescription),
-    /// By a lag of the side force except what camber alone produces.
-    ForceWithoutCamber(ForceLagDescription),
-}
-
-/// A lag of the slip.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SlipLagDescription {
-    /// Length over which lateral slip builds up.
-    length: LengthDescription,
-    /// Length over which longitudinal slip builds up; at once where left out.
-    longitudinal_length: Option<LengthDescription>,
-}
-
-/// A lag of the side force.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ForceLagDescription {
-    /// Length over which the force builds up.
-    length: LengthDescription,
-}
-
-/// A relaxation length.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LengthDescription {
-    /// The same at every load and speed.
-    Constant(NonNegativeQuantity<Length>),
-    /// Coefficients of a polynomial of the load in N that gives m, constant coefficient first.
-    LoadPolynomial(Vec<f64>),
-    /// c0, c1, c2 of `K (c0 + c1 V + c2 V²)` with the cornering stiffness K, N/rad, and the speed V, m/s.
-    CorneringStiffness([f64; 3]),
-}
-
-impl LengthDescription {
-    fn length(self) -> RelaxationLength {
-        match self {
-            Self::Constant(length) => RelaxationLength::Constant(length.si()),
-            Self::LoadPolynomial(coefficients) => RelaxationLength::LoadPolynomial(coefficients),
-            Self::CorneringStiffness(coefficients) => RelaxationLength::CorneringStiffness(coefficients),
-        }
-    }
 }
 
 /// Friction law with its parameters (in SI), or a file that holds one.
@@ -270,8 +161,16 @@ impl ElementDescription for TireDescription {
         let profile = self.profile(site);
         let rolling_resistance = self.rolling_resistance(site);
         let law = friction_law(self.law, site);
-        let carcass = carcass(self.carcass, site);
-        let wheel = profile.and_then(|profile| wheel(site, &self.wheel, profile, self.road));
+        let rigid = matches!(self.carcass, CarcassDescription::Rigid(_));
+        if let (true, Some(road)) = (rigid, &self.road) {
+            let message = format!("a rigid tire stays on the level road, so the road `{road}` has no height");
+            site.find("road", Finding::error("contradictory_entries", message).with_hint("leave the entry out"));
+        }
+        let mut wheel = profile.and_then(|profile| wheel(site, &self.wheel, profile, self.road));
+        if let (true, Some(wheel)) = (rigid, &mut wheel) {
+            wheel.road = None;
+        }
+        let carcass = carcass(self.carcass, wheel.as_ref(), site);
         Some(Tire {
             wheel: wheel?,
             carcass: carcass?,
@@ -332,39 +231,6 @@ impl TireDescription {
         };
         checked("rolling_resistance", resistance.checked(), site)
     }
-}
-
-fn carcass(description: CarcassDescription, site: &mut Site<'_>) -> Option<Carcass> {
-    let vertical = match description {
-        CarcassDescription::Deformable(c) => {
-            let longitudinal = c.longitudinal.map(ElasticDescription::elastic);
-            return Some(Carcass::Deformable(Deformable { radial: c.radial.elastic(), lateral: c.lateral.elastic(), longitudinal }));
-        }
-        CarcassDescription::Vertical(vertical) => vertical,
-    };
-    let relaxation = match vertical.relaxation {
-        RelaxationDescription::None => Relaxation::None,
-        RelaxationDescription::Elastic(spring) => Relaxation::Elastic(spring.elastic()),
-        RelaxationDescription::Slip(lag) => {
-            Relaxation::Slip { lateral: lag.length.length(), longitudinal: lag.longitudinal_length.map(LengthDescription::length) }
-        }
-        RelaxationDescription::Force(lag) => Relaxation::Force(lag.length.length()),
-        RelaxationDescription::ForceWithoutCamber(lag) => Relaxation::ForceWithoutCamber(lag.length.length()),
-    };
-    let lengths = match &relaxation {
-        Relaxation::None | Relaxation::Elastic(_) => [None, None],
-        Relaxation::Slip { lateral, longitudinal } => [Some(lateral), longitudinal.as_ref()],
-        Relaxation::Force(length) | Relaxation::ForceWithoutCamber(length) => [Some(length), None],
-    };
-    if lengths.into_iter().flatten().any(|length| matches!(length, RelaxationLength::LoadPolynomial(c) if c.is_empty())) {
-        site.refuse("carcass.vertical.relaxation", "missing_entry", "a relaxation length as a polynomial of the load needs coefficients");
-        return None;
-    }
-    Some(Carcass::Vertical(Vertical {
-        normal: Elastic { stiffness: vertical.stiffness.si(), damping: vertical.damping.si() },
-        quadratic: vertical.stiffness_quadratic.map_or(0.0, Quantity::si),
-        relaxation,
-    }))
 }
 
 /// The wheel carried by a joint, refused where the joint does not turn to the left.

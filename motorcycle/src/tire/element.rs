@@ -1,12 +1,13 @@
 //! The tire as a force element: a wheel, a carcass, a friction law.
 //!
-//! The carcass is either deformable in the directions of the rim ([`Deformable`]) or a vertical spring with a relaxation of slip
-//! or force ([`Vertical`]). Both hand over a patch: forces, slips, rows, energy.
+//! The carcass is deformable in the directions of the rim ([`Deformable`]), or a vertical spring with a relaxation of slip
+//! or force ([`Vertical`]), or rigid, held on the road by a constraint ([`Rigid`]). All hand over a patch: forces, slips, rows, energy.
 
 use super::carcass::RoadContact;
 use super::deformable::Deformable;
 use super::law::{AnyTireLaw, TireLaw};
 use super::patch::{Patch, limits, outputs};
+use super::rigid::Rigid;
 use super::rolling_resistance::RollingResistance;
 use super::vertical::Vertical;
 use super::wheel::{Rolling, Wheel};
@@ -20,6 +21,8 @@ pub enum Carcass {
     Deformable(Deformable),
     /// A spring along the normal of the road, with a relaxation of slip or force.
     Vertical(Vertical),
+    /// Rigid, with a relaxation of slip or force; a constraint holds the wheel on the road.
+    Rigid(Rigid),
 }
 
 /// A tire on a wheel.
@@ -51,7 +54,8 @@ impl Tire {
     fn states(&self) -> Vec<StateDeclared> {
         match &self.carcass {
             Carcass::Deformable(c) => c.states(),
-            Carcass::Vertical(c) => c.states(),
+            Carcass::Vertical(c) => c.relaxation.states(),
+            Carcass::Rigid(c) => c.relaxation.states(),
         }
     }
 
@@ -60,6 +64,7 @@ impl Tire {
         match &self.carcass {
             Carcass::Deformable(c) => c.patch(self, rolling, at),
             Carcass::Vertical(c) => c.patch(self, rolling, at),
+            Carcass::Rigid(c) => c.patch(self, rolling, at),
         }
     }
 }
@@ -72,6 +77,10 @@ impl ForceLaw for Tire {
             outputs: outputs(element),
             limits: limits(element, &self.wheel, self.law.saturates()),
             spinning: vec![self.wheel.body],
+            multipliers: match &self.carcass {
+                Carcass::Rigid(c) => vec![c.load.clone()],
+                _ => Vec::new(),
+            },
         }
     }
 
@@ -94,7 +103,8 @@ impl Carcass {
     fn state_count(&self) -> usize {
         match self {
             Self::Deformable(c) => c.state_count(),
-            Self::Vertical(c) => c.state_count(),
+            Self::Vertical(c) => c.relaxation.state_count(),
+            Self::Rigid(c) => c.relaxation.state_count(),
         }
     }
 }

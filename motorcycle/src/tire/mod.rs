@@ -4,10 +4,11 @@
 //! x forward, y left, z up; camber positive leaning right; lateral slip `a = −V_sy/V*` positive when the tire slides to the
 //! right, so that for small slips `Fy ≈ C_α a − C_γ γ` with both stiffnesses positive. One file holds one law.
 //!
-//! The element [`Tire`] puts a law on a wheel ([`wheel`]) with a carcass ([`deformable`], [`vertical`]); [`ThinDiscLinear`] is the
+//! The element [`Tire`] puts a law on a wheel ([`wheel`]) with a carcass ([`deformable`], [`vertical`], [`rigid`]); [`ThinDiscLinear`] is the
 //! tire of a benchmark. Their rows stand in [`crate::KINDS`].
 
 pub mod carcass;
+pub mod carcass_description;
 pub mod compact_motorcycle;
 pub mod deformable;
 pub mod description;
@@ -16,6 +17,8 @@ pub mod invalid;
 pub mod law;
 pub mod linear_normalized;
 pub mod magic_formula_motorcycle;
+pub mod relaxation;
+pub mod rigid;
 pub mod rolling_resistance;
 pub mod sharp_linear;
 pub mod thin_disc_linear;
@@ -33,6 +36,8 @@ pub use description::TireDescription;
 pub use element::{Carcass, Tire};
 pub use invalid::InvalidTireData;
 pub use law::{AnyTireLaw, Friction, Slip, TireLaw};
+pub use relaxation::Relaxation;
+pub use rigid::Rigid;
 pub use thin_disc_linear::{ThinDiscLinear, ThinDiscLinearDescription};
-pub use vertical::{Relaxation, Vertical};
+pub use vertical::Vertical;
 pub use wheel::Wheel;

@@ -44,6 +44,8 @@ pub(super) struct Patch<S> {
     pub effective_radius: S,
     /// Load N, N.
     pub load: S,
+    /// Its part that the tire itself exerts, N: all, or nothing where a constraint holds the wheel.
+    pub support: S,
     /// Forces and moments of friction.
     pub friction: Friction<S>,
     /// Moment of rolling resistance about the axle, N m.
@@ -65,7 +67,7 @@ impl<S: SystemScalar> Patch<S> {
     pub fn apply(&self, wheel: &Wheel, at: &Rolling<S>, out: &mut Effort<'_, S>) {
         let (f, point) = (&self.friction, at.center + self.arm);
         let (x, y, k) = (at.frame.x, at.frame.y, at.frame.k);
-        let force = k.scaled(self.load) + x.scaled(f.longitudinal) + y.scaled(f.lateral);
+        let force = k.scaled(self.support) + x.scaled(f.longitudinal) + y.scaled(f.lateral);
         let moment = k.scaled(f.aligning_moment) + at.axis.scaled(self.rolling_moment) + x.scaled(f.overturning_moment);
         out.force_and_moment(wheel.body, point, force, moment);
         let values = [
@@ -94,11 +96,11 @@ impl<S: SystemScalar> Patch<S> {
     pub fn energy(&self, at: &Rolling<S>) -> Energy<S> {
         let (f, v, w, spin) = (&self.friction, self.velocity, at.angular_velocity, at.spin);
         let (x, y, k) = (at.frame.x, at.frame.y, at.frame.k);
-        let translation = self.load * v.dot(k) + f.longitudinal * (v.dot(x) - self.lever * spin) + f.lateral * v.dot(y);
+        let translation = self.support * v.dot(k) + f.longitudinal * (v.dot(x) - self.lever * spin) + f.lateral * v.dot(y);
         let rotation = f.aligning_moment * (w.dot(k) + spin * at.frame.sin_camber)
             + self.rolling_moment * (w.dot(at.axis) + spin)
             + f.overturning_moment * w.dot(x);
-        let supplied = self.load * at.height_rate;
+        let supplied = self.support * at.height_rate;
         Energy { stored: self.stored, supplied, dissipated: supplied - translation - rotation - self.stored_rate }
     }
 }

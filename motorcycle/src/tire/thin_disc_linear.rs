@@ -71,6 +71,7 @@ impl ThinDiscLinear {
             deflection: depth,
             effective_radius: S::from_f64(radius),
             load,
+            support: load,
             friction,
             rolling_moment: S::zero(),
             lateral_slip: slip.lateral.tan(),

@@ -1,29 +1,21 @@
-//! Vertical carcass: a spring along the normal of the road, and one of several ways in which side forces build up.
+//! Vertical carcass: a spring along the normal of the road; side forces build up as [`Relaxation`] says.
 //!
 //! ```text
 //! f = kz δ + k2 δ|δ| + cz δ̇        P = C − a e − b n + δ k        re = a − η δ
-//! none                  a = −V_sy/V*
-//! elastic               0 = kl λ + cl λ̇ − Fy,      a = −(V_sy + λ̇)/V*
-//! slip                  σ ȧ + V* a + V_sy = 0       (and σκ κ̇ + V* κ + V_sx = 0 where σκ is given)
-//! force                 (σ/V*) Ḟ + F = Fy(κ, a, γ, N)
-//! force without camber  (σ/V*) Ḟ + F = Fy(κ, a, γ, N) − Fy(κ, 0, γ, N),      side force F + Fy(κ, 0, γ, N)
 //! ```
 //!
-//! δ depth of the undeformed tire below the road, m; V_sx, V_sy sliding of the carrier at P, m/s; V* reference speed, m/s; λ displacement
-//! of the patch to the left in the plane of the road, m; σ relaxation length, m. All moments follow the slip, not the lagged force.
-//! The equations of slip hold through standstill, where they make a spring of stiffness C_α/σ.
+//! δ depth of the undeformed tire below the road, m; a, b point of the cross-section that touches, m; η share of the depth in the effective
+//! radius.
 //!
-//! Source: H. B. Pacejka, *Tire and Vehicle Dynamics*, chapter 7 (slip); R. S. Sharp, J. Mech. Eng. Sci. 13 (1971) 316–329 (force);
-//! the elastic form after R. Lot, Meccanica 39 (2004) 207–220, with the spring in the plane of the road.
-//! Range: a polynomial of load holds near the loads that it was fitted at. A lagged force outlives the load by σ/V*.
+//! Source: ours; the quadratic part after H. B. Pacejka, *Tire and Vehicle Dynamics*, chapter 4.
 
-use super::carcass::{Elastic, RelaxationLength};
-use super::deformable::CARCASS_LATERAL;
+use super::carcass::Elastic;
 use super::element::Tire;
-use super::law::{Friction, Slip, TireLaw};
+use super::law::Friction;
 use super::patch::Patch;
+use super::relaxation::{Relaxation, Sliding};
 use super::wheel::Rolling;
-use mbody::force::{Evaluated, StateDeclared};
+use mbody::force::Evaluated;
 use mbody::scalar::SystemScalar;
 
 /// A spring along the normal of the road.
@@ -37,87 +29,7 @@ pub struct Vertical {
     pub relaxation: Relaxation,
 }
 
-/// How side forces build up.
-#[derive(Clone, Debug)]
-pub enum Relaxation {
-    /// At once.
-    None,
-    /// By a spring along the road.
-    Elastic(Elastic),
-    /// By a lag of the slip.
-    Slip {
-        /// Length for the lateral slip.
-        lateral: RelaxationLength,
-        /// Length for the longitudinal slip; none: at once.
-        longitudinal: Option<RelaxationLength>,
-    },
-    /// By a lag of the side force.
-    Force(RelaxationLength),
-    /// By a lag of the side force except what camber alone produces.
-    ForceWithoutCamber(RelaxationLength),
-}
-
-const SLIP: StateDeclared = StateDeclared {
-    name: "lagged_lateral_slip",
-    unit: "-",
-    about: "lateral slip after relaxation, positive when the tire slides to the right",
-    nominal: 0.01,
-    absolute_tolerance: 1e-8,
-    differential: true,
-    row: ("lateral sliding", "m/s", 1.0),
-};
-
-const LONGITUDINAL_SLIP: StateDeclared = StateDeclared {
-    name: "lagged_longitudinal_slip",
-    about: "longitudinal slip after relaxation, driving positive",
-    row: ("longitudinal sliding", "m/s", 1.0),
-    ..SLIP
-};
-
-const FORCE: StateDeclared = StateDeclared {
-    name: "lagged_lateral_force",
-    unit: "N",
-    about: "side force after relaxation, to the left",
-    nominal: 1000.0,
-    absolute_tolerance: 1e-3,
-    differential: true,
-    row: ("build-up of the lateral force", "N", 1000.0),
-};
-
-/// Sliding of the rigid tire and what the rows need beside it.
-struct Sliding<S> {
-    x: S,
-    y: S,
-    reference: S,
-    load: S,
-    camber: S,
-}
-
-impl<S: SystemScalar> Sliding<S> {
-    fn slip(&self, lateral: S, longitudinal: S) -> Slip<S> {
-        Slip { load: self.load, lateral, longitudinal, camber: self.camber, speed: self.reference }
-    }
-}
-
 impl Vertical {
-    pub(super) fn states(&self) -> Vec<StateDeclared> {
-        match &self.relaxation {
-            Relaxation::None => vec![],
-            Relaxation::Elastic(_) => vec![CARCASS_LATERAL],
-            Relaxation::Slip { longitudinal: None, .. } => vec![SLIP],
-            Relaxation::Slip { longitudinal: Some(_), .. } => vec![SLIP, LONGITUDINAL_SLIP],
-            Relaxation::Force(_) | Relaxation::ForceWithoutCamber(_) => vec![FORCE],
-        }
-    }
-
-    pub(super) fn state_count(&self) -> usize {
-        match &self.relaxation {
-            Relaxation::None => 0,
-            Relaxation::Slip { longitudinal: Some(_), .. } => 2,
-            _ => 1,
-        }
-    }
-
     #[inline]
     pub(super) fn patch<S: SystemScalar>(&self, tire: &Tire, wheel: &Rolling<S>, at: &Evaluated<'_, S>) -> Patch<S> {
         let (frame, meridian, depth) = (&wheel.frame, &wheel.meridian, wheel.penetration);
@@ -149,6 +61,7 @@ impl Vertical {
             deflection: depth,
             effective_radius,
             load,
+            support: load,
             friction: Friction::default(),
             rolling_moment: tire.rolling_resistance.moment(load, effective_radius, wheel.spin, speed),
             lateral_slip: S::zero(),
@@ -157,49 +70,7 @@ impl Vertical {
             stored: stored + square * compressed.abs() * (1.0 / 3.0),
             stored_rate: stored_rate + square * depth_rate,
         };
-        self.relax(tire, &sliding, at, &mut patch);
+        self.relaxation.relax(tire, &sliding, at, &mut patch);
         patch
-    }
-
-    /// Friction, slips and rows.
-    #[inline]
-    fn relax<S: SystemScalar>(&self, tire: &Tire, sliding: &Sliding<S>, at: &Evaluated<'_, S>, patch: &mut Patch<S>) {
-        let Sliding { x, y, reference, load, camber } = *sliding;
-        let length = |sigma: &RelaxationLength| sigma.at(&tire.law, load, camber, reference);
-        let per_reference = reference.recip();
-        let (mut a, mut kappa) = (-y * per_reference, -x * per_reference);
-        match &self.relaxation {
-            Relaxation::Elastic(_) => a -= at.state_rate(0) * per_reference,
-            Relaxation::Slip { lateral, longitudinal } => {
-                a = at.state(0);
-                patch.rows[0] = length(lateral) * at.state_rate(0) + reference * a + y;
-                if let Some(sigma) = longitudinal {
-                    kappa = at.state(1);
-                    patch.rows[1] = length(sigma) * at.state_rate(1) + reference * kappa + x;
-                }
-            }
-            Relaxation::None | Relaxation::Force(_) | Relaxation::ForceWithoutCamber(_) => {}
-        }
-        let mut friction = tire.law.friction(&sliding.slip(a, kappa));
-        let steady = friction.lateral;
-        match &self.relaxation {
-            Relaxation::Elastic(spring) => {
-                let (lateral, rate) = (at.state(0), at.state_rate(0));
-                patch.rows[0] = spring.force(lateral, rate) - steady;
-                let [stored, stored_rate] = spring.stored(lateral, rate);
-                (patch.stored, patch.stored_rate) = (patch.stored + stored, patch.stored_rate + stored_rate);
-            }
-            Relaxation::Force(sigma) => {
-                friction.lateral = at.state(0);
-                patch.rows[0] = length(sigma) * per_reference * at.state_rate(0) + friction.lateral - steady;
-            }
-            Relaxation::ForceWithoutCamber(sigma) => {
-                let of_camber = tire.law.friction(&sliding.slip(S::zero(), kappa)).lateral;
-                friction.lateral = at.state(0) + of_camber;
-                patch.rows[0] = length(sigma) * per_reference * at.state_rate(0) + friction.lateral - steady;
-            }
-            Relaxation::None | Relaxation::Slip { .. } => {}
-        }
-        (patch.friction, patch.lateral_slip, patch.longitudinal_slip) = (friction, a, kappa);
     }
 }

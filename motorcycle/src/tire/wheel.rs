@@ -14,7 +14,7 @@ use mbody::contact::{ContactFrame, Meridian, Profile, TangentPlane};
 use mbody::force::{Evaluated, InputDeclared};
 use mbody::model::{BodyIndex, Model};
 use mbody::scalar::SystemScalar;
-use mbody::spatial::Vec3;
+use mbody::spatial::{Pose, Vec3};
 
 /// The left, in the world at the design pose and in most bodies.
 const LEFT: Vec3<f64> = Vec3 { x: 0.0, y: 1.0, z: 0.0 };
@@ -30,8 +30,8 @@ pub struct Wheel {
     pub axis: Vec3<f64>,
     /// Cross-section of the tire.
     pub profile: Profile,
-    /// Name under which the height of the road comes in: inputs `<road>.height` and `<road>.height_rate`.
-    pub road: String,
+    /// Name under which the height of the road comes in: inputs `<road>.height` and `<road>.height_rate`; none: the plane z = 0.
+    pub road: Option<String>,
 }
 
 impl Wheel {
@@ -39,12 +39,13 @@ impl Wheel {
     pub fn new(model: &Model, body: BodyIndex, profile: Profile, road: impl Into<String>) -> Option<Self> {
         let joint = model.body(body);
         let axis = joint.X_PF.R.times_const(joint.joint.rotation_axis()?);
-        Some(Self { body, carrier: joint.parent, axis, profile, road: road.into() })
+        Some(Self { body, carrier: joint.parent, axis, profile, road: Some(road.into()) })
     }
 
-    /// The inputs that every tire reads first.
+    /// The inputs that every tire on such a road reads first.
     pub(super) fn inputs(&self) -> Vec<InputDeclared> {
-        let (height, rate) = (format!("{}.height", self.road), format!("{}.height_rate", self.road));
+        let Some(road) = &self.road else { return Vec::new() };
+        let (height, rate) = (format!("{road}.height"), format!("{road}.height_rate"));
         vec![
             InputDeclared {
                 name: height,
@@ -58,13 +59,21 @@ impl Wheel {
         ]
     }
 
+    /// Depth of the undeformed tire below the plane z = 0, m, from the poses of wheel and carrier in the world.
+    pub(super) fn depth(&self, X_WB: &Pose<f64>, X_WC: &Pose<f64>) -> f64 {
+        let plane = TangentPlane { point: Vec3::new(0.0, 0.0, 0.0), normal: Vec3::new(0.0, 0.0, 1.0) };
+        let frame = ContactFrame::new(X_WB.p, X_WC.R * self.axis, &plane);
+        let meridian = self.profile.meridian_at(&frame);
+        meridian.a * frame.cos_camber + meridian.b * frame.sin_camber - frame.center_height
+    }
+
     /// State of motion over the road.
     #[inline]
     pub(super) fn rolling<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> Rolling<S> {
         let center = at.X_WB(self.body).p;
         let R_WC = &at.X_WB(self.carrier).R;
         let axis = if self.axis == LEFT { R_WC.columns[1] } else { R_WC.times_const(self.axis) };
-        let (height, height_rate) = (at.input(0), at.input(1));
+        let (height, height_rate) = if self.road.is_some() { (at.input(0), at.input(1)) } else { (S::zero(), S::zero()) };
         let up = Vec3::from_f64(Vec3 { x: 0.0, y: 0.0, z: 1.0 });
         let plane = TangentPlane { point: Vec3::new(S::zero(), S::zero(), height), normal: up };
         let frame = ContactFrame::new(center, axis, &plane);

@@ -9,7 +9,8 @@
 //!
 //! Real eigenvalues that pass each other on the axis exchange their vectors, by way of a short-lived pair or not at all visibly: what was the spin
 //! of a wheel is a suspension afterwards. A real mode, or one damped nearly as much, therefore keeps its name only while no other
-//! rule fits clearly better; oscillations keep theirs, whatever they turn into.
+//! rule fits clearly better; oscillations keep theirs, whatever they turn into. Two oscillations may veer: come close and leave on each other's way. Where
+//! the rules hold (straight running) they exchange their names as soon as the names of each other fit both clearly better.
 //!
 //! Source: theory manual 8.4; R. J. Allemang, D. L. Brown, Proc. 1st Int. Modal Analysis Conf. 1982 (MAC).
 
@@ -17,7 +18,7 @@ use super::Modes;
 use super::assignment::cheapest;
 use super::naming::{Name, assign, classify, confidence, scores};
 use nalgebra::{Complex, DMatrix, DVector};
-use problem::ModeRule;
+use problem::{ModeRule, Nature, Occurs};
 
 /// ω₀, 1/s: eigenvalues slower than this are compared by their absolute distance.
 const SLOW: f64 = 1.0;
@@ -128,13 +129,37 @@ pub fn names(points: &[Option<&Modes>], plain: &[bool], edges: &[Edge], rules: &
             for edge in edges.iter().filter(|e| e.from == at || e.to == at) {
                 let (next, link) = if edge.from == at { (edge.to, edge.link.clone()) } else { (edge.from, edge.link.reversed()) };
                 if let (None, Some(from), Some(to), Some(names)) = (&named[next], points[at], points[next], &named[at]) {
-                    named[next] = Some(carried(from, names, &link, to, rules));
+                    let mut names = carried(from, names, &link, to, rules);
+                    if plain[next] {
+                        exchange(&mut names, to, rules);
+                    }
+                    named[next] = Some(names);
                     reached.push(next);
                 }
             }
         }
     }
     named.into_iter().map(Option::unwrap_or_default).collect()
+}
+
+/// Where two oscillations fit each other's names clearly better, they exchange them: their paths have veered away from each other.
+fn exchange(names: &mut [Name], modes: &Modes, rules: &[ModeRule]) {
+    let scores = scores(modes, rules);
+    let rule = |name: &Name| {
+        let of_name = |r: &ModeRule| r.name == name.name && r.nature == Nature::Oscillation && r.occurs == Occurs::Once;
+        rules.iter().position(of_name)
+    };
+    let shake: Vec<usize> = (0..names.len()).filter(|&m| modes.list[m].oscillates()).collect();
+    for (k, &a) in shake.iter().enumerate() {
+        for &b in &shake[k + 1..] {
+            let (Some(of_a), Some(of_b)) = (rule(&names[a]), rule(&names[b])) else { continue };
+            let crossed = scores[(a, of_b)] + scores[(b, of_a)];
+            if crossed > CLEARLY * (scores[(a, of_a)] + scores[(b, of_b)]) {
+                let name = |m: usize, r: usize| Name { name: rules[r].name.to_owned(), confidence: confidence(&scores, m, r, rules) };
+                (names[a], names[b]) = (name(a, of_b), name(b, of_a));
+            }
+        }
+    }
 }
 
 /// The names at a point, carried from a neighbor.
