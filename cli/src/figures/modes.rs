@@ -47,7 +47,7 @@ fn title(report: &Report, modes: &ModesAlong, what: &str) -> String {
 }
 
 /// `speed 30 m/s`.
-fn quantity(name: &str, unit: &str, value: f64) -> String {
+pub fn quantity(name: &str, unit: &str, value: f64) -> String {
     let shown = Angles::Degrees.show(unit);
     let rounded = (value * shown.factor * 1e6).round() / 1e6;
     format!("{} {rounded} {}", name.replace('_', " "), shown.unit).trim_end().to_owned()
