@@ -11,6 +11,7 @@ mod linear;
 mod mechanisms;
 mod motion;
 mod recorded;
+mod ride;
 mod trim;
 
 use validation::evidence;
@@ -28,6 +29,7 @@ fn the_table_of_evidence_is_up_to_date() {
             linear::EVIDENCE,
             bundled::EVIDENCE,
             invariance::EVIDENCE,
+            ride::EVIDENCE,
         ],
     );
 }
