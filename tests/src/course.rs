@@ -2,17 +2,18 @@
 
 use crate::agreement::{Agreement, absolute};
 use crate::tree::Named;
+use crate::vehicle::State;
 use analyses::Variables;
-use analyses::transient::{Constant, Inputs, Method, Simulation, Start, Transient, Worst};
+use analyses::transient::{Driven, Inputs, Method, Simulation, Start, Transient, Worst};
 use fastbike::library::Source;
 use fastbike::standard_kinds;
 use mbody::assembly::{BaseDescription, assemble, assemble_urdf};
 use mbody::description::Library;
 use mbody::dynamics::{Account, Formulation, System, TreePlant};
 use mbody::spatial::Vec3;
-use problem::{AlgebraicErrors, At, Dae, IntegrationOptions};
+use problem::{AlgebraicErrors, At, Dae, Integrable, IntegrationOptions};
 use std::sync::Arc;
-use sundials::{ExplicitRungeKutta, Ida};
+use sundials::{Cvode, ExplicitRungeKutta, Ida};
 
 /// A method with its tolerances.
 #[derive(Clone, Copy, Debug)]
@@ -21,13 +22,36 @@ pub enum By {
     Erk(f64, f64),
     /// Implicit multistep on the stabilized form of index 2; tolerances as before.
     Ida(f64, f64),
+    /// Backward differentiation of the explicit form with projection; tolerances as before.
+    Bdf(f64, f64),
+    /// Adams formulas of the explicit form; tolerances as before.
+    Adams(f64, f64),
 }
 
 impl By {
     fn options(self) -> IntegrationOptions {
-        let (Self::Erk(relative_tolerance, absolute_tolerance_factor) | Self::Ida(relative_tolerance, absolute_tolerance_factor)) = self;
+        let (Self::Erk(relative_tolerance, absolute_tolerance_factor)
+        | Self::Ida(relative_tolerance, absolute_tolerance_factor)
+        | Self::Bdf(relative_tolerance, absolute_tolerance_factor)
+        | Self::Adams(relative_tolerance, absolute_tolerance_factor)) = self;
         let algebraic = AlgebraicErrors::Suppressed;
         IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 50_000, algebraic, ..Default::default() }
+    }
+
+    /// Runs a simulation with these tolerances.
+    ///
+    /// # Panics
+    /// It cannot start.
+    pub fn run(self, mut transient: Transient, plant: &mut dyn Integrable, inputs: &dyn Inputs) -> Simulation {
+        transient.options = self.options();
+        let (mut erk, mut ida, mut bdf, mut adams) = (ExplicitRungeKutta::default(), Ida::default(), Cvode::bdf(), Cvode::adams());
+        let method = match self {
+            Self::Erk(..) => Method::Ode(&mut erk),
+            Self::Ida(..) => Method::Dae(&mut ida),
+            Self::Bdf(..) => Method::Ode(&mut bdf),
+            Self::Adams(..) => Method::Ode(&mut adams),
+        };
+        transient.run(plant, inputs, method).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
@@ -86,15 +110,26 @@ impl Course {
         let mut transient = Transient::new(&plant, times.to_vec());
         let mut start = Start::stated(&plant);
         start.hold(&plant, &held);
-        (transient.start, transient.options) = (start, by.options());
-        let (mut erk, mut ida) = (ExplicitRungeKutta::default(), Ida::default());
-        let method = match by {
-            By::Erk(..) => Method::Ode(&mut erk),
-            By::Ida(..) => Method::Dae(&mut ida),
-        };
-        let constant = Constant(u.clone());
-        let simulation = transient.run(&mut plant, moving.unwrap_or(&constant), method).unwrap_or_else(|error| panic!("{error}"));
+        transient.start = start;
+        let constant = Driven::new(u.clone());
+        let simulation = by.run(transient, &mut plant, moving.unwrap_or(&constant));
         Self { plant, simulation, u }
+    }
+
+    /// A vehicle from a steady state with the inputs that it needs there, to which `drive` adds.
+    ///
+    /// # Panics
+    /// It cannot start.
+    pub fn ride(state: &State, times: &[f64], by: By, drive: impl FnOnce(&TreePlant, &mut Driven)) -> Self {
+        let mut plant = TreePlant::in_formulation(state.system.clone(), Formulation::Ggl);
+        let (y, u) = state.arguments();
+        let mut transient = Transient::new(&plant, times.to_vec());
+        transient.start = Start { y: vec![0.0; plant.unknowns().len()], held: vec![false; plant.unknowns().len()] };
+        transient.start.y[..y.len()].copy_from_slice(y);
+        let mut inputs = Driven::new(u.to_vec());
+        drive(&plant, &mut inputs);
+        let simulation = by.run(transient, &mut plant, &inputs);
+        Self { plant, simulation, u: u.to_vec() }
     }
 
     /// The plant, in the stabilized form.

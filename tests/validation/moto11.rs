@@ -1,6 +1,7 @@
 //! The benchmark motorcycle `moto11`, which several codes solve: inverse dynamics, one steady turn, a sweep of 400 steady turns.
 
 use analyses::eigen;
+use analyses::transient::{Step, evenly};
 use analyses::trim::{Trim, TrimProblem, Walk};
 use fastbike::plan::Turn;
 use mbody::algorithm::kinematics;
@@ -9,9 +10,10 @@ use mbody::assembly::{BaseDescription, assemble_urdf};
 use mbody::spatial::{Rotation, Vec3};
 use mbody::stage::Workspace;
 use native::Newton;
-use problem::AlgebraicMethod;
+use problem::{AlgebraicMethod, Dae};
 use sundials::{Kinsol, Strategy};
 use validation::agreement::{Agreement, relative};
+use validation::course::{By, Course};
 use validation::evidence::Row;
 use validation::reference::{Table, text};
 use validation::vehicle::{State, Vehicle, free, given, running, turning};
@@ -37,6 +39,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "`moto11`: the six oscillations of straight running at 30 m/s",
         "codes on Pinocchio (Python, C++) and CasADi agree; definition of the benchmark",
         "half a unit of the last printed digit"
+    ),
+    a_pulse_at_the_handlebar_is_met => (
+        "`moto11`: 1 s from straight running at 30 m/s with a pulse of 20 N m at the handlebar from 0.1 to 0.2 s, by IDA, ERK and both families of CVODE: roll rate, steering angle, lateral position",
+        "codes on Pinocchio (Python, C++) and CasADi agree; `tests/reference/moto11/moto11_checks.yaml`",
+        "half a unit of the last printed digit; tolerances 1e-11"
     ),
 ];
 
@@ -173,6 +180,31 @@ fn eigenvalues_are_met() {
     for (pair, (re, im)) in spectrum.values.chunks(2).zip(PRINTED) {
         agreement.printed(&format!("real part of {}", pair[0]), pair[0].re, re);
         agreement.printed(&format!("imaginary part of {}", pair[0]), pair[0].im, im);
+    }
+    agreement.assert();
+}
+
+#[test]
+fn a_pulse_at_the_handlebar_is_met() {
+    let straight = Vehicle::bundled("moto11").state(&running(&[30.0]));
+    let mut agreement = Agreement::on("moto11: pulse at the handlebar");
+    for by in [By::Erk(1e-11, 1e-5), By::Ida(1e-11, 1e-5), By::Bdf(1e-11, 1e-5), By::Adams(1e-11, 1e-5)] {
+        let mut course = Course::ride(&straight, &evenly(1.0, 11), by, |plant, inputs| {
+            let torque = plant.inputs().iter().position(|i| i.signal.name == "steer.torque").expect("an input");
+            for (time, height) in [(0.1, 20.0), (0.2, -20.0)] {
+                inputs.add(plant, torque, Box::new(Step { time, height }));
+            }
+        });
+        course.holds(&mut agreement, &format!("{by:?}"));
+        let last = |name: &str| course.signal(name)[10];
+        // the x component of the angular velocity in the frame of the chassis: R = Rz Rx Ry
+        let (roll, pitch) = (last("chassis.roll"), last("chassis.pitch"));
+        let rate = pitch.cos() * last("chassis.roll_rate") - pitch.sin() * roll.cos() * last("chassis.yaw_rate");
+        let steer = last("steer.angle");
+        agreement.printed(&format!("{by:?}: roll rate, rad/s"), rate, "0.04420662");
+        agreement.printed(&format!("{by:?}: steering angle, rad"), steer, "-0.00368427");
+        let center = course.position(10, "chassis", [0.62, 0.0, 0.62]);
+        agreement.printed(&format!("{by:?}: lateral position, m"), center.y, "-0.13163319");
     }
     agreement.assert();
 }

@@ -13,6 +13,7 @@ mod motion;
 mod recorded;
 mod responses;
 mod sensitivity;
+mod ride;
 mod trim;
 
 use validation::evidence;
@@ -32,6 +33,7 @@ fn the_table_of_evidence_is_up_to_date() {
             bundled::EVIDENCE,
             invariance::EVIDENCE,
             sensitivity::EVIDENCE,
+            ride::EVIDENCE,
         ],
     );
 }
