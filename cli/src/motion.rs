@@ -4,12 +4,15 @@ use crate::Failure;
 use crate::arguments::{argument, unknown_name};
 use crate::backend::{self, Integrator};
 use crate::output::{Given, History, Outcome, small};
-use analyses::transient::{Cause, Constant, Drift, Method, Simulation, Start, Transient, TransientEnding, TransientError, Worst};
+use analyses::transient::{
+    Cause, Constant, Drift, Method, Simulation, Start, Trajectory, Transient, TransientEnding, TransientError, Worst,
+};
 use analyses::{Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::description::quantity::{Dimension, Dimensioned, dimension::Number, parse_quantity};
 use mbody::dynamics::{Formulation, System, TreePlant};
 use problem::{At, Dae, EquationKind, IntegrationOptions, Off, Outputs, Plant, Signal, UnknownKind};
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -48,6 +51,8 @@ pub struct Request {
     pub given: Vec<String>,
     /// Signals to be recorded; none: all.
     pub record: Vec<String>,
+    /// Signals to be kept for an animation beside the coordinates, where they exist; `None` where there is no animation.
+    pub keep: Option<Vec<String>>,
 }
 
 /// What `--given` says.
@@ -90,7 +95,8 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
         absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),
         ..IntegrationOptions::default()
     };
-    transient.record = (0..n).map(Variable::Unknown).chain(recorded.variables.iter().copied()).collect();
+    let beside = beside(request.keep.as_deref(), &plant);
+    transient.record = (0..n).map(Variable::Unknown).chain(recorded.variables.iter().chain(&beside).copied()).collect();
     let began = Instant::now();
     let simulation = follow(&mut transient, &mut plant, &given, &backend.make, &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
@@ -102,8 +108,10 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
         ));
     }
     let (energy, drift) = account(&simulation, system, &given.inputs.0);
-    let mut signals = simulation.trajectory.signals[n..].to_vec();
-    let mut columns = simulation.trajectory.columns[n..].to_vec();
+    let told = n..n + recorded.variables.len();
+    let mut signals = simulation.trajectory.signals[told.clone()].to_vec();
+    let mut columns = simulation.trajectory.columns[told.clone()].to_vec();
+    let kept = if request.keep.is_some() { kept(&simulation.trajectory, told) } else { Trajectory::default() };
     if let Some(at) = recorded.energy {
         signals.insert(at, energy_signal());
         columns.insert(at, energy);
@@ -134,8 +142,23 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str) -> Result<Histo
             drift,
             limits: simulation.limits,
         },
+        kept,
         warnings,
     })
+}
+
+/// Signals kept beside the recorded ones.
+fn beside(keep: Option<&[String]>, plant: &TreePlant) -> Vec<Variable> {
+    let names = Variables::of(plant);
+    keep.unwrap_or_default().iter().filter_map(|name| names.find(name)).collect()
+}
+
+/// All of a trajectory but the signals that are told.
+fn kept(all: &Trajectory, told: Range<usize>) -> Trajectory {
+    fn others<T: Clone>(list: &[T], told: &Range<usize>) -> Vec<T> {
+        list[..told.start].iter().chain(&list[told.end..]).cloned().collect()
+    }
+    Trajectory { time: all.time.clone(), signals: others(&all.signals, &told), columns: others(&all.columns, &told) }
 }
 
 /// What multiplies absolute tolerances.

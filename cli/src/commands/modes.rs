@@ -1,6 +1,7 @@
 //! `modes`: modes at a steady state or along a sweep.
 
 use super::{Kind, read};
+use crate::animation::{self, Scene};
 use crate::arguments::{ModelArguments, OutputArguments};
 use crate::output::modes::{Branch, ModesAlong};
 use crate::output::{Angles, Beside, Report};
@@ -11,6 +12,7 @@ use crate::{Context, Exit, Failure, model, results, steady};
 use clap::{ArgMatches, Args, Command, ValueEnum};
 use mbody::description::finding::{Finding, Severity};
 use std::f64::consts::TAU;
+use std::path::PathBuf;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "modes", command, run };
@@ -35,6 +37,9 @@ struct Arguments {
     /// Tell the shapes of the modes: deviations of all unknowns, the largest state being 1 in its typical magnitude
     #[arg(long)]
     shapes: bool,
+    /// Animation of all modes at all points to write: one .html file that opens in a browser without a network
+    #[arg(long, value_name = "FILE.html")]
+    animate: Option<PathBuf>,
     /// What --plot draws
     #[arg(long, value_name = "PICTURE", value_enum, default_value = "locus")]
     figure: Picture,
@@ -55,6 +60,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     arguments.model.set.extend(arguments.trim.gear_override());
     let request = arguments.trim.request()?;
     arguments.output.check()?;
+    arguments.animate.as_deref().map(animation::check).transpose()?;
     if arguments.output.plot.is_some() && request.swept() == 0 && arguments.figure == Picture::Frequencies {
         let finding = Finding::error("no_sweep", "the figure of a single point would be empty");
         return Err(finding.with_hint("sweep something, for example `--speed 10..60:2`").into());
@@ -68,10 +74,20 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let (system, backend) = (&loaded.assembled.system, arguments.trim.backend.as_str());
     // trims converge to 1e-10; 1e-6 is what their eigenvalues are told to
     let small = SmallMotions { request: &request, system, backend, residual_tolerance: 1e-6 };
-    let modes = small.along(&steady, if arguments.shapes { Shapes::Shown } else { Shapes::LeftOut })?;
+    let shapes = if arguments.shapes || arguments.animate.is_some() { Shapes::Shown } else { Shapes::LeftOut };
+    let modes = small.along(&steady, shapes)?;
     let mut report = results::report("modes", &loaded.name, Vec::new(), steady);
     report.beside = Beside::Modes(modes);
-    results::deliver(context, (&arguments.model, &arguments.output), report, |report| figure(report, arguments.figure))
+    let angles = arguments.output.angles();
+    let page = arguments.animate.is_some().then(|| animation::page_of_modes(&Scene::of(&loaded.assembled), &report, angles));
+    if let (Beside::Modes(modes), false) = (&mut report.beside, arguments.shapes) {
+        modes.leave_out_shapes();
+    }
+    let exit = results::deliver(context, (&arguments.model, &arguments.output), report, |report| figure(report, arguments.figure));
+    if let (Ok(_), Some(path), Some(page)) = (&exit, &arguments.animate, page) {
+        animation::write(context, path, &page?)?;
+    }
+    exit
 }
 
 fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {

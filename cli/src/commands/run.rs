@@ -1,14 +1,16 @@
 //! `run`: a motion over time.
 
 use super::{Kind, read};
+use crate::animation::{self, Scene};
 use crate::arguments::{ModelArguments, OutputArguments, argument};
-use crate::output::{Angles, History};
+use crate::output::{Angles, History, Results};
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::{Context, Exit, Failure, model, motion, results};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Severity;
 use mbody::description::quantity::dimension::{Frequency, Number, Time};
 use mbody::description::quantity::{Dimensioned, parse_quantity};
+use std::path::PathBuf;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "run", command, run };
@@ -47,6 +49,9 @@ struct Arguments {
     /// Relative tolerance
     #[arg(long, value_name = "NUMBER", default_value = "1e-6")]
     rtol: String,
+    /// Animation to write: one .html file that opens in a browser without a network
+    #[arg(long, value_name = "FILE.html")]
+    animate: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -64,16 +69,20 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
     // the signals shown are our choice
     let chosen = arguments.record.is_empty();
+    let (times, relative_tolerance) = (times(&arguments.duration, arguments.rate.as_deref())?, tolerance(&arguments.rtol)?);
+    arguments.output.check()?;
+    arguments.animate.as_deref().map(animation::check).transpose()?;
+    let loaded = model::load(&arguments.model, context)?;
+    let scene = arguments.animate.is_some().then(|| Scene::of(&loaded.assembled));
     let request = motion::Request {
-        times: times(&arguments.duration, arguments.rate.as_deref())?,
-        relative_tolerance: tolerance(&arguments.rtol)?,
+        times,
+        relative_tolerance,
         backend: arguments.backend,
         formulation: arguments.formulation,
         given: arguments.given,
         record: arguments.record,
+        keep: scene.as_ref().map(Scene::signals),
     };
-    arguments.output.check()?;
-    let loaded = model::load(&arguments.model, context)?;
     let mut history = motion::run(&request, &loaded.assembled.system, &loaded.name)?;
     history.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(|f| f.to_string()));
     let (reached, outcome) = (history.outcome.statistics.time, &history.outcome);
@@ -81,8 +90,15 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         outcome.because.as_ref().map(|because| format!("error: the motion ended at {reached:.6} s of {} s: {because}\n", outcome.duration));
     // unasked for, the energy of a conservative system would be a figure of rounding errors
     let drawn: Vec<usize> = history.shown.iter().copied().filter(|&s| !chosen || history.signals[s].name != motion::ENERGY).collect();
+    let page = scene.map(|scene| {
+        let told = history.clone().in_axes(arguments.output.axes);
+        animation::page_of_run(&scene, &history, &told, arguments.output.angles())
+    });
     let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| figure(history, &drawn));
     context.console.complain(&ended.unwrap_or_default());
+    if let (Ok(_), Some(path), Some(page)) = (&exit, &arguments.animate, page) {
+        animation::write(context, path, &page)?;
+    }
     exit
 }
 
