@@ -78,7 +78,8 @@ pub fn page(scene: &Scene, report: &Report, angles: Angles) -> Result<String, Fa
         return Err(Finding::error("no_steady_state", "there are no modes to animate").into());
     }
     if found.len() > MOST {
-        let finding = Finding::error("too_many_points", format!("an animation of {} points would be too large; at most {MOST}", found.len()));
+        let finding =
+            Finding::error("too_many_points", format!("an animation of {} points would be too large; at most {MOST}", found.len()));
         return Err(finding.with_hint("sweep in larger steps, for example `--speed 10..60:5`").into());
     }
     let cyclic = Cyclic::of(scene);
@@ -90,8 +91,11 @@ pub fn page(scene: &Scene, report: &Report, angles: Angles) -> Result<String, Fa
         let poses = steady.poses(None);
         let columns = steady.columns();
         let velocity = cyclic.path.map_or([0.0; 3], |(_, v)| v.map(|k| point.values[k]));
-        let spins: Vec<Value> =
-            cyclic.spins.iter().map(|&(body, _, spin)| json!({ "body": body, "axis": axis(scene, body), "rate": point.values[spin] })).collect();
+        let spins: Vec<Value> = cyclic
+            .spins
+            .iter()
+            .map(|&(body, _, spin)| json!({ "body": body, "axis": axis(scene, body), "rate": point.values[spin] }))
+            .collect();
         let label: Vec<String> = (report.given.iter().zip(&point.given))
             .map(|(g, v)| {
                 let shown = angles.show(&g.unit);

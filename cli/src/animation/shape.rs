@@ -4,14 +4,14 @@
 
 use super::contact::Rolling;
 use mbody::description::urdf::{Robot, Shape, Visual};
-use mbody::model::{Attachment, Body, BodyIndex, Model, Outline};
 use mbody::dynamics::System;
+use mbody::model::{Attachment, Body, BodyIndex, Model, Outline};
 use mbody::spatial::{MassProperties, Pose, Rotation, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
 
 /// Thickness of a strut over the size of the scene.
-const STRUT: f64 = 0.011;
+const STRUT: f64 = 0.008;
 /// Distance below which two points are one, over the size of the scene.
 const SAME: f64 = 1e-4;
 /// Half the width of a handlebar, m.

@@ -2,7 +2,7 @@
 
 const WORLD = { p: [0, 0, 0], q: IDENTITY };
 // Most points of a track.
-const TRACK = 500;
+const TRACK = 800;
 
 // Poses of all bodies in one frame of an array of seven numbers per body.
 function frame(array, bodies, k) {
@@ -72,18 +72,27 @@ class Recorded {
     return [...this.contacts.subarray(at, at + 9)];
   }
 
-  // Ways up to a time: of the contacts, or else of the mass centers.
-  tracks(t) {
-    const [k] = this.sample(t), stride = Math.max(1, Math.ceil(k / TRACK));
-    const samples = [];
-    for (let i = 0; i <= k; i += stride) samples.push(i);
-    const now = this.at(t);
-    if (this.scene.contacts.length) {
-      return this.scene.contacts.map((_, c) => [...samples.map((i) => this.contact(i, c).slice(0, 3)), now.contacts[c].point]);
+  // Points of the whole way, thinned evenly: of the contacts, or else of the mass centers.
+  get way() {
+    if (this.kept) return this.kept;
+    const stride = Math.ceil(this.count / TRACK), samples = [];
+    for (let k = 0; k < this.count; k += stride) samples.push(k);
+    const { contacts } = this.scene;
+    if (contacts.length) this.kept = contacts.map((_, c) => samples.map((k) => this.contact(k, c).slice(0, 3)));
+    else {
+      this.centers = this.scene.bodies.map((b) => b.shapes.find((s) => s.kind === "center")?.at);
+      const frames = samples.map((k) => frame(this.poses, this.bodies, k));
+      this.kept = this.centers.map((at, b) => (at ? frames.map((poses) => placed(poses[b], at)) : []));
     }
-    const centers = this.scene.bodies.map((b) => b.shapes.find((s) => s.kind === "center")?.at);
-    const frames = samples.map((i) => frame(this.poses, this.bodies, i));
-    return centers.map((c, b) => (c ? [...frames, now.poses].map((poses) => placed(poses[b], c)) : []));
+    this.stride = stride;
+    return this.kept;
+  }
+
+  // Ways up to a time.
+  tracks(t, _, now) {
+    const way = this.way, behind = Math.floor(this.sample(t)[0] / this.stride) + 1;
+    const here = (c) => (this.scene.contacts.length ? now.contacts[c].point : placed(now.poses[c], this.centers[c]));
+    return way.map((points, c) => (points.length ? [...points.slice(0, behind), here(c)] : []));
   }
 }
 

@@ -40,7 +40,7 @@ void main() {
 class Painter {
   constructor(canvas) {
     this.canvas = canvas;
-    const gl = (this.gl = canvas.getContext("webgl2", { antialias: true, stencil: true, preserveDrawingBuffer: true }));
+    const gl = (this.gl = canvas.getContext("webgl2", { alpha: false, antialias: true, stencil: true, preserveDrawingBuffer: true }));
     if (!gl) throw new Error("this browser offers no WebGL 2");
     this.solid = this.program(SOLID);
     this.ground = this.program(GROUND);

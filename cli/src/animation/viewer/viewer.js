@@ -98,7 +98,7 @@ function itemsOf({ poses, contacts }, origin) {
 }
 
 function pointer(items, at, vector, rgba) {
-  const length = norm(vector), r = 0.0085 * scene.size;
+  const length = norm(vector), r = 0.007 * scene.size;
   if (!(length > 0.5 * r)) return;
   const head = Math.min(7 * r, 0.6 * length), q = fromZ(unit(vector)), way = unit(vector);
   items.push({ mesh: meshes.cylinder, model: matrix(at, q, [r, r, length - head]), color: rgba, bright: true });
@@ -130,8 +130,8 @@ function paint(passed, jump) {
   const origin = camera.target, canvas = $("view");
   const view = camera.look(canvas.clientWidth / Math.max(canvas.clientHeight, 1));
   const flat = scene.ground;
-  const tracks = !layers.tracks ? [] : film.tracks(state.time, state.total).map((points, k) => ({
-    points: points.map((p) => [p[0] - origin[0], p[1] - origin[1], (flat ? 0.002 * scene.size * 0 : p[2]) - origin[2]]),
+  const tracks = !layers.tracks ? [] : film.tracks(state.time, state.total, now).map((points, k) => ({
+    points: points.map((p) => [p[0] - origin[0], p[1] - origin[1], (flat ? 0 : p[2]) - origin[2]]),
     color: color(flat ? CURVES[k % 2] : BODIES[(k - 1 + BODIES.length) % BODIES.length], 0.85), flat, width: 0.014 * scene.size,
   }));
   const floor = flat ? 0 : scene.box[0][2] - 0.12 * camera.size;
@@ -144,7 +144,7 @@ function paint(passed, jump) {
   painter.paint({
     camera: view.matrix, eye: view.eye, ground, tracks, items: itemsOf(now, origin),
     paper: color(style("--paper")).slice(0, 3), line: color(dark() ? "#4a5361" : "#b9bfc8").slice(0, 3),
-    shadow: [0, 0, 0, dark() ? 0.4 : 0.13],
+    shadow: [0, 0, 0, dark() ? 0.45 : 0.2],
   });
   triad();
 }
