@@ -24,13 +24,14 @@ const PAGE: &str = include_str!("viewer/page.html");
 /// Its looks.
 const STYLE: &str = include_str!("viewer/style.css");
 /// Its program, in the order of use.
-const PROGRAM: [&str; 7] = [
+const PROGRAM: [&str; 8] = [
     include_str!("viewer/algebra.js"),
     include_str!("viewer/mesh.js"),
     include_str!("viewer/painter.js"),
     include_str!("viewer/camera.js"),
     include_str!("viewer/figure.js"),
     include_str!("viewer/film.js"),
+    include_str!("viewer/stage.js"),
     include_str!("viewer/viewer.js"),
 ];
 

@@ -1,6 +1,7 @@
-//! Shapes of bodies where nobody drew them: struts between the points where something acts, and the ellipsoid of the same inertia.
+//! Shapes of bodies where nobody drew them: struts between the points where something acts, and the ellipsoid of gyration.
 //!
-//! `a_i² = 5 (I_j + I_k − I_i) / 2m`: semi-axes of a homogeneous ellipsoid of mass m, kg, and principal moments I, kg m². Source: elementary.
+//! `a_i² = (I_j + I_k − I_i) / 2m = ∫ x_i² dm / m`: semi-axes, m, along the principal axes of the inertia, for mass m, kg, and principal
+//! moments I, kg m². Source: elementary.
 
 use super::contact::Rolling;
 use mbody::description::urdf::{Robot, Shape, Visual};
@@ -176,7 +177,7 @@ impl Shapes<'_> {
     }
 }
 
-/// The ellipsoid of the same inertia; a point mass is a ball of the least size.
+/// The ellipsoid of gyration; a point mass is a ball of the least size.
 fn ellipsoid(mass: &MassProperties, least: f64) -> Option<Value> {
     if mass.mass <= 0.0 {
         return None;
@@ -184,7 +185,7 @@ fn ellipsoid(mass: &MassProperties, least: f64) -> Option<Value> {
     let [xx, yy, zz, xy, xz, yz] = mass.inertia;
     let eigen = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigen();
     let moments = eigen.eigenvalues;
-    let semi = [0, 1, 2].map(|i| (2.5 / mass.mass * (moments.sum() - 2.0 * moments[i])).max(0.0).sqrt().max(least));
+    let semi = [0, 1, 2].map(|i| (0.5 / mass.mass * (moments.sum() - 2.0 * moments[i])).max(0.0).sqrt().max(least));
     let column = |k: usize| Vec3::new(eigen.eigenvectors[(0, k)], eigen.eigenvectors[(1, k)], eigen.eigenvectors[(2, k)]);
     let (x, y) = (column(0), column(1));
     let turn = quaternion(&Rotation::from_columns(x, y, x.cross(y)));

@@ -68,14 +68,16 @@ function block() {
   return joined(...faces);
 }
 
-// A coil of unit length and radius along z, with plain ends.
-function coil(turns = 7, wire = 0.16) {
-  return surface(8, turns * 22, (u, v) => {
+// A coil of unit length and radius along z between straight ends.
+function coil(turns = 9, wire = 0.14) {
+  const wound = surface(8, turns * 20, (u, v) => {
     const a = 2 * Math.PI * turns * v, b = 2 * Math.PI * u;
-    const h = 0.12 + 0.76 * v, c = Math.cos(a), s = Math.sin(a);
+    const c = Math.cos(a), s = Math.sin(a);
     const n = [c * Math.cos(b), s * Math.cos(b), Math.sin(b)];
-    return [[c * (1 - wire) + wire * n[0], s * (1 - wire) + wire * n[1], h + 0.045 * n[2]], n];
+    return [[c * (1 - wire) + wire * n[0], s * (1 - wire) + wire * n[1], 0.14 + 0.72 * v + 0.011 * n[2]], n];
   });
+  const end = (from) => moved(cylinder(), matrix([0, 0, from], IDENTITY, [wire, wire, 0.14]));
+  return joined(wound, end(0), end(0.86));
 }
 
 // The tire of a wheel about z: the crown outside, flatter inside; a sharp edge gets a little body.

@@ -120,7 +120,7 @@ class Painter {
       gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
       gl.depthMask(false);
       gl.uniform1f(u.drop, ground.level);
-      for (const item of items) if (!item.bright) this.item(item, { ...item, color: shadow, glass: 0, lit: 0 }, u);
+      for (const item of items) if (!item.bright && !item.glass) this.item(item, { ...item, color: shadow, glass: 0, lit: 0 }, u);
       gl.uniform1f(u.drop, -1e6);
       gl.disable(gl.STENCIL_TEST);
       for (const track of tracks) if (track.flat) this.track(track, u);
@@ -128,7 +128,7 @@ class Painter {
     }
     for (const track of tracks) if (!ground || !track.flat) this.track(track, u);
     gl.disable(gl.BLEND);
-    for (const item of items) if (!item.glass && item.color[3] === 1) this.item(item, item, u);
+    for (const item of items) if (!item.bright && !item.glass && item.color[3] === 1) this.item(item, item, u);
     gl.enable(gl.BLEND);
     gl.enable(gl.CULL_FACE);
     gl.depthMask(false);
@@ -136,6 +136,9 @@ class Painter {
     gl.depthMask(true);
     gl.disable(gl.CULL_FACE);
     gl.disable(gl.BLEND);
+    // forces and mass centers are seen through everything
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    for (const item of items) if (item.bright) this.item(item, item, u);
   }
 
   item({ mesh, model }, { color, glass, lit = 1 }, u) {
