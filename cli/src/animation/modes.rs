@@ -172,7 +172,7 @@ impl Steady<'_> {
                 sum.iter_mut().zip(parts).for_each(|(s, part)| *s += mode.shape[*k] * part);
             }
         }
-        let path = self.path(mode, velocity);
+        let path = self.cyclic.path.map_or([zero; 3], |(_, v)| path(mode.value, velocity, v.map(|k| mode.shape[k])));
         let integrated = |z: Complex<f64>| if mode.value.norm() > NEUTRAL { z / mode.value } else { zero };
         let spins: Vec<Complex<f64>> = self.cyclic.spins.iter().map(|s| integrated(mode.shape[s.2])).collect();
         let size = |z: &[Complex<f64>]| z.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
@@ -198,20 +198,6 @@ impl Steady<'_> {
         })
     }
 
-    /// Deviation of the moving frame: see the head of the file.
-    fn path(&self, mode: &NamedMode, [vx, vy, r]: [f64; 3]) -> [Complex<f64>; 3] {
-        let zero = Complex::new(0.0, 0.0);
-        let s = mode.value;
-        let (Some((_, v)), true) = (self.cyclic.path, s.norm() > NEUTRAL && (s * s + r * r).norm() > NEUTRAL * NEUTRAL) else {
-            return [zero; 3];
-        };
-        let [forward, left, turn] = v.map(|k| mode.shape[k]);
-        let heading = turn / s;
-        let (a, b) = (forward - heading * vy, left + heading * vx);
-        let determinant = s * s + r * r;
-        [(s * a + b * r) / determinant, (s * b - a * r) / determinant, heading]
-    }
-
     /// Coordinates that take part, angles and lengths apart, the largest first.
     fn phasors(&self, mode: &NamedMode, path: &[Complex<f64>; 3], scale: f64, angles: Angles) -> Vec<Value> {
         let system = &self.scene.system;
@@ -234,5 +220,65 @@ impl Steady<'_> {
             }));
         }
         chosen
+    }
+}
+
+/// Deviation of the moving frame, forward, left and heading, from those of its speeds: see the head of the file.
+fn path(s: Complex<f64>, [vx, vy, r]: [f64; 3], [forward, left, turn]: [Complex<f64>; 3]) -> [Complex<f64>; 3] {
+    let determinant = s * s + r * r;
+    if s.norm() < NEUTRAL || determinant.norm() < NEUTRAL * NEUTRAL {
+        return [Complex::new(0.0, 0.0); 3];
+    }
+    let heading = turn / s;
+    let (a, b) = (forward - heading * vy, left + heading * vx);
+    [(s * a + b * r) / determinant, (s * b - a * r) / determinant, heading]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEADY: [f64; 3] = [20.0, -0.5, 0.4];
+
+    /// Place and heading of the deviated frame: the steady circle, then the deviation in its frame.
+    fn composed(t: f64, deviation: [f64; 3]) -> [f64; 3] {
+        let [vx, vy, r] = STEADY;
+        let (sin, cos) = (r * t).sin_cos();
+        let (x, y) = ((vx * sin - vy * (1.0 - cos)) / r, (vx * (1.0 - cos) + vy * sin) / r);
+        let [forward, left, heading] = deviation;
+        [x + cos * forward - sin * left, y + sin * forward + cos * left, r * t + heading]
+    }
+
+    /// Disturbed speeds, integrated without linearization, lead along the path that the mode is shown on.
+    #[test]
+    fn the_path_of_a_mode_in_a_turn_is_that_of_its_speeds() {
+        let s = Complex::new(-0.3, 5.0);
+        let shape = [Complex::new(0.3, -0.2), Complex::new(-0.5, 0.1), Complex::new(0.2, 0.4)];
+        let deviation = path(s, STEADY, shape);
+        let small = 1e-5;
+        let at = |z: Complex<f64>, t: f64| small * (z * (s * t).exp()).re;
+        let rates = |t: f64, psi: f64| {
+            let [vx, vy, r] = [0, 1, 2].map(|k| STEADY[k] + at(shape[k], t));
+            [vx * psi.cos() - vy * psi.sin(), vx * psi.sin() + vy * psi.cos(), r]
+        };
+        let mut q = composed(0.0, deviation.map(|z| at(z, 0.0)));
+        let (steps, end) = (2000, 2.0);
+        let h = end / f64::from(steps);
+        for k in 0..steps {
+            let t = h * f64::from(k);
+            let moved = |by: [f64; 3], h: f64| q[2] + h * by[2];
+            let a = rates(t, q[2]);
+            let b = rates(t + h / 2.0, moved(a, h / 2.0));
+            let c = rates(t + h / 2.0, moved(b, h / 2.0));
+            let d = rates(t + h, moved(c, h));
+            for i in 0..3 {
+                q[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
+            }
+        }
+        let expected = composed(end, deviation.map(|z| at(z, end)));
+        for i in 0..3 {
+            // second order in the deviation, 1e-10 times 40 m
+            assert!((q[i] - expected[i]).abs() < 1e-8, "{i}: {} {}", q[i], expected[i]);
+        }
     }
 }

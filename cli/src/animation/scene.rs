@@ -4,7 +4,7 @@ use super::contact::Rolling;
 use super::shape::{Shapes, quaternion, travels, vector};
 use mbody::assembly::Assembled;
 use mbody::dynamics::System;
-use mbody::model::{BodyIndex, Outline};
+use mbody::model::{Attachment, BodyIndex, Outline};
 use mbody::spatial::{Pose, Vec3};
 use mbody::stage::Workspace;
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ pub struct Scene {
     /// The body that the camera follows, where one travels.
     pub(super) follows: Option<BodyIndex>,
     /// Points that are to be seen where no body travels.
-    points: Vec<(BodyIndex, Vec3<f64>)>,
+    points: Vec<Attachment>,
 }
 
 impl std::fmt::Debug for Scene {
@@ -51,6 +51,11 @@ impl Scene {
         for r in &rolling {
             let up = Vec3::new(0.0, 0.0, r.profile.radius());
             points.extend([(r.at.0, r.at.1 + up), (r.at.0, r.at.1 - up)]);
+        }
+        for outline in outlines(&system) {
+            if let Outline::Spring { from, to } | Outline::Rod { from, to } = outline {
+                points.extend([from, to]);
+            }
         }
         let (low, high) = bounds(points.iter().map(|(b, p)| w.world.X_WB[b.get()].point(*p)));
         let size = (high - low).norm().max(1e-3);
@@ -109,12 +114,17 @@ fn bounds(points: impl Iterator<Item = Vec3<f64>>) -> (Vec3<f64>, Vec3<f64>) {
     if low.x > high.x { (Vec3::zero(), Vec3::zero()) } else { (low, high) }
 }
 
+/// What elements and constraints show of themselves.
+fn outlines(system: &System) -> impl Iterator<Item = Outline> {
+    let elements = system.elements().iter().flat_map(|e| e.force.outlines(system.model()));
+    elements.chain(system.constraints().iter().filter_map(|c| c.outline().cloned()))
+}
+
 /// Springs and rods between points of two bodies.
 fn links(system: &System) -> Vec<Value> {
-    let elements = system.elements().iter().flat_map(|e| e.force.outlines(system.model()));
-    let constraints = system.constraints().iter().filter_map(|c| c.outline().cloned());
-    let link = |kind: &str, (a, p): (BodyIndex, Vec3<f64>), (b, q): (BodyIndex, Vec3<f64>)| json!({ "kind": kind, "from": [a.get(), p.x, p.y, p.z], "to": [b.get(), q.x, q.y, q.z] });
-    let drawn = elements.chain(constraints).filter_map(|outline| match outline {
+    let end = |(body, p): Attachment| json!([body.get(), p.x, p.y, p.z]);
+    let link = |kind: &str, from, to| json!({ "kind": kind, "from": end(from), "to": end(to) });
+    let drawn = outlines(system).filter_map(|outline| match outline {
         Outline::Round { .. } => None,
         Outline::Spring { from, to } => Some(link("spring", from, to)),
         Outline::Rod { from, to } => Some(link("rod", from, to)),

@@ -13,9 +13,11 @@ class Camera {
     this.middle = scale(add(low, high), 0.5);
     const extent = sub(high, low);
     this.size = this.travels ? scene.size : Math.max(norm(extent), scene.size);
-    this.thin = extent.indexOf(Math.min(...extent));
+    const least = Math.min(...extent);
+    // a plane mechanism shows itself across its plane
+    this.thin = least < 0.25 * Math.max(...extent) ? extent.indexOf(least) : null;
     this.distance = 1.0;
-    this.set(this.travels ? "follow" : this.thin === 2 ? "top" : "side");
+    this.set(this.travels || this.thin === null ? "follow" : this.thin === 2 ? "top" : "side");
     this.listen(canvas, moved);
   }
 
@@ -45,7 +47,7 @@ class Camera {
   look(aspect) {
     const yaw = this.yaw + (this.view === "follow" || this.view === "side" ? this.heading : 0);
     const wide = Math.min(1, aspect);
-    const d = (this.distance * this.size * (this.travels ? 1.9 : 1.6)) / wide;
+    const d = (this.distance * this.size * (this.travels ? 2 : 1.6)) / wide;
     const eye = [d * Math.cos(this.pitch) * Math.cos(yaw), d * Math.cos(this.pitch) * Math.sin(yaw), d * Math.sin(this.pitch)];
     const up = this.pitch > 1.5 ? [-Math.cos(yaw), -Math.sin(yaw), 0] : [0, 0, 1];
     this.axes = looking(eye, [0, 0, 0], up);

@@ -68,7 +68,7 @@ class Plot {
     let low = finite.reduce((a, b) => Math.min(a, b), Infinity), high = finite.reduce((a, b) => Math.max(a, b), -Infinity);
     if (!(high >= low)) [low, high] = [-1, 1];
     // what varies by rounding only is a level line
-    const least = Math.max(1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+    const least = Math.max(1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-7);
     const room = high - low > least ? 0.07 * (high - low) : Math.max(0.1 * Math.abs(high), least);
     [low, high] = [low - room, high + room];
     const [start, end] = [this.time[0], this.time[this.time.length - 1]];

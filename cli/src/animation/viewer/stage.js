@@ -1,7 +1,7 @@
 // From poses to what is painted: shapes of bodies, springs, forces, tracks, ground; the camera's target; triad and legend.
 
 const BODIES = ["#0072b2", "#e69f00", "#56b4e9", "#cc79a7", "#009e73", "#8a8f98"];
-const NORMAL = "#009e73", FRICTION = "#d55e00", TIRE = ["#33363b", "#5b616b"], RIM = ["#aab0b8", "#c2c7ce"], MARK = "#d55e00";
+const NORMAL = "#009e73", FRICTION = "#cc79a7", TIRE = ["#33363b", "#5b616b"], RIM = ["#aab0b8", "#c2c7ce"], MARK = "#d55e00";
 
 function color(hex, opacity = 1) {
   const n = parseInt(hex.slice(1), 16);
