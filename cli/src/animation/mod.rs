@@ -24,7 +24,7 @@ const PAGE: &str = include_str!("viewer/page.html");
 /// Its looks.
 const STYLE: &str = include_str!("viewer/style.css");
 /// Its program, in the order of use.
-const PROGRAM: [&str; 8] = [
+const PROGRAM: [&str; 9] = [
     include_str!("viewer/algebra.js"),
     include_str!("viewer/mesh.js"),
     include_str!("viewer/painter.js"),
@@ -32,6 +32,7 @@ const PROGRAM: [&str; 8] = [
     include_str!("viewer/figure.js"),
     include_str!("viewer/film.js"),
     include_str!("viewer/stage.js"),
+    include_str!("viewer/beside.js"),
     include_str!("viewer/viewer.js"),
 ];
 

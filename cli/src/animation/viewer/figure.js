@@ -16,7 +16,9 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 // A short decimal number.
 function short(x, digits = 4) {
   if (!Number.isFinite(x)) return "–";
-  const text = Math.abs(x) >= 1e5 || (Math.abs(x) < 1e-3 && x !== 0) ? x.toExponential(digits - 2) : x.toPrecision(digits);
+  const size = Math.abs(x);
+  if (size >= 10 ** digits && size < 1e5) return x.toFixed(0);
+  const text = size >= 1e5 || (size < 1e-3 && x !== 0) ? x.toExponential(digits - 2) : x.toPrecision(digits);
   return text.includes(".") && !text.includes("e") ? text.replace(/0+$/, "").replace(/\.$/, "") : text;
 }
 

@@ -12,111 +12,6 @@ const layers = { forces: true, tracks: true, bodies: true, centers: false };
 const request = new URLSearchParams(location.hash.slice(1));
 const dark = () => document.documentElement.dataset.theme === "dark";
 
-// ---- figures beside the view
-
-const plots = [];
-const phasors = [];
-
-function besideRun() {
-  const seek = (t) => go(t);
-  data.plots.forEach((p, k) => plots.push(new Plot($("beside"), p, film.time, CURVES[k % CURVES.length], seek)));
-}
-
-function besideModes() {
-  const host = $("beside");
-  const row = (label) => {
-    const r = element("label", host, undefined, { class: "row" });
-    element("span", r, label);
-    return r;
-  };
-  const select = (label, options, changed) => {
-    const s = element("select", row(label));
-    options.forEach((text, k) => element("option", s, text, { value: k }));
-    s.addEventListener("change", () => changed(Number(s.value)));
-    return s;
-  };
-  const oscillates = (m) => (m.im > 0 ? `${short(m.hz, 3)} Hz` : `${short(m.re, 3)} 1/s`);
-  let point = Math.min(Number(request.get("point") ?? 0), data.points.length - 1), mode = 0;
-  const list = element("select", row("mode"));
-  const fill = () => {
-    list.replaceChildren();
-    data.points[point].modes.forEach((m, k) => element("option", list, `${m.name}, ${oscillates(m)}`, { value: k }));
-  };
-  const table = element("table", host);
-  const chosen = () => {
-    film.choose(point, mode);
-    list.value = String(mode);
-    // slow motions travel far: their path is left out at first
-    film.path = film.oscillates && film.mode.im > 1;
-    path.value = film.path ? "0" : "1";
-    const m = film.mode;
-    const rows = [["eigenvalue", `${short(m.re)}${m.im > 0 ? ` ± ${short(m.im)} j` : ""} 1/s`], ["damping ratio", short(m.damping, 3)]];
-    if (m.im > 0) rows.unshift(["damped frequency", `${short(m.hz)} Hz`]);
-    rows.push(["", m.re > 1e-6 ? "grows: unstable" : m.re < -1e-6 ? "fades: stable" : "neutral"]);
-    table.replaceChildren();
-    for (const [name, value] of rows) {
-      const r = element("tr", table);
-      element("td", r, name);
-      element("td", r, value);
-    }
-    for (const p of phasors) p.show(m.phasors.filter((x) => (x.unit === "mm") === (p.unit === "mm")));
-    $("slider").max = film.window[1];
-    setBase();
-    restart();
-  };
-  list.addEventListener("change", () => {
-    mode = Number(list.value);
-    chosen();
-  });
-  const name = () => data.points[point].modes[mode]?.name;
-  if (data.points.length > 1) {
-    const s = select("steady state", data.points.map((p) => p.label), (k) => {
-      const before = name();
-      point = k;
-      fill();
-      mode = Math.max(0, data.points[point].modes.findIndex((m) => m.name === before));
-      chosen();
-    });
-    s.value = String(point);
-    host.prepend(s.parentElement);
-  } else {
-    element("h2", host, data.points[0].label);
-    host.prepend(host.lastChild);
-  }
-  const r = row("amplitude");
-  const slider = element("input", r, undefined, { type: "range", min: 0, max: 0.5, step: "any" });
-  const told = element("output", r);
-  const set = (a) => {
-    film.amplitude = a;
-    slider.value = a;
-    told.textContent = `${((a * 180) / Math.PI).toFixed(1)}°`;
-    state.dirty = true;
-  };
-  slider.addEventListener("input", () => set(Number(slider.value)));
-  set(Number(request.get("amplitude") ?? film.amplitude));
-  select("moving frame", ["travels with the vehicle", "stays"], (k) => {
-    film.travels = k === 0;
-    restart();
-  });
-  const path = select("path of the mode", ["shown", "left out"], (k) => {
-    film.path = k === 0;
-    state.dirty = true;
-  });
-  select("amplitude over time", ["constant", "fades or grows"], (k) => {
-    film.fades = k === 1;
-    $("slider").max = film.window[1];
-    restart();
-  });
-  const unit = data.points.some((p) => p.modes.some((m) => m.phasors.some((x) => x.unit === "rad"))) ? "rad" : "deg";
-  phasors.push(new Phasors(host, unit), new Phasors(host, "mm"));
-  fill();
-  const wanted = request.get("mode");
-  const modes = data.points[point].modes;
-  const found = modes.findIndex((m, k) => m.name === wanted || String(k) === wanted);
-  mode = Math.max(0, found >= 0 ? found : modes.findIndex((m) => m.im > 0));
-  chosen();
-}
-
 // ---- time
 
 // One second of the page is `base` seconds of the motion at speed 1: short and long motions are stretched.
@@ -225,6 +120,10 @@ function controls() {
     state.dirty = true;
   });
   $("theme").addEventListener("click", () => theme(dark() ? "light" : "dark"));
+  keyboard(views);
+}
+
+function keyboard(views) {
   document.addEventListener("keydown", (e) => {
     if (["SELECT", "INPUT"].includes(e.target.tagName) || e.ctrlKey || e.metaKey || e.altKey) return;
     const step = (e.shiftKey ? 10 : 1) * STEP * state.rate;
@@ -264,11 +163,11 @@ function theme(name) {
 function begin() {
   $("title").textContent = data.title;
   $("about").textContent = $("about").title = data.about;
-  state.cell = nice(scene.size * 0.18);
   state.perNewton = film.strongest > 0 ? 1 / nice((film.strongest / (0.45 * scene.size)) * 0.5) : 0;
   try {
     painter = new Painter($("view"));
     camera = new Camera(scene, $("view"), () => (state.dirty = true));
+    state.cell = nice(camera.size * 0.18);
     build();
   } catch (error) {
     painter = undefined;
