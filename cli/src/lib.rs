@@ -3,6 +3,7 @@
 //! The crate is a library with a thin binary, so that another crate can ship the command with kinds of its own:
 //! `main_with(Kinds::standard().with(motorcycle::KINDS).with(my::KINDS))`.
 
+pub mod animation;
 pub mod arguments;
 pub mod backend;
 pub mod commands;

@@ -2,6 +2,7 @@
 //!
 //! Numbers are parsed and compared as numbers; words only where other programs rely on them.
 
+mod animation;
 mod check;
 mod comfort;
 mod dynamics;

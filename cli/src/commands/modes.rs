@@ -1,6 +1,7 @@
 //! `modes`: modes at a steady state or along a sweep.
 
 use super::{Kind, read};
+use crate::animation::{self, Scene};
 use crate::arguments::{ModelArguments, OutputArguments};
 use crate::family::Vehicles;
 use crate::model::Loaded;
@@ -13,6 +14,7 @@ use crate::steady::Steady;
 use crate::{Context, Exit, Failure, figures, model, results, steady};
 use clap::{ArgMatches, Args, Command, ValueEnum};
 use mbody::description::finding::{Finding, Severity};
+use std::path::PathBuf;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "modes", command, run };
@@ -50,6 +52,9 @@ struct Arguments {
     /// Tell how modes move with this parameter, a path as in --set (repeatable)
     #[arg(long, value_name = "PATH")]
     sensitivity_of: Vec<String>,
+    /// Animation of all modes at all points to write: one .html file that opens in a browser without a network
+    #[arg(long, value_name = "FILE.html")]
+    animate: Option<PathBuf>,
     /// What --plot draws; left out: shapes with --shapes, sensitivities with --sensitivity, else the locus
     #[arg(long, value_name = "PICTURE", value_enum)]
     figure: Option<Picture>,
@@ -58,6 +63,10 @@ struct Arguments {
 impl Arguments {
     fn wants_sensitivities(&self) -> bool {
         self.sensitivity.is_some() || !self.sensitivity_of.is_empty()
+    }
+
+    fn draws_shapes(&self) -> bool {
+        self.output.plot.is_some() && self.picture() == Picture::Shapes
     }
 
     fn picture(&self) -> Picture {
@@ -103,6 +112,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let request = arguments.trim.request()?;
     arguments.output.check()?;
     arguments.check_figure(&request)?;
+    arguments.animate.as_deref().map(animation::check).transpose()?;
     let loaded = model::load(&arguments.model, context)?;
     let family = Vehicles::of(&loaded.blueprint, &loaded.source, &context.kinds, arguments.model.reactions);
     let names: Vec<String> = arguments.sensitivity.iter().flatten().filter(|name| !name.is_empty()).cloned().collect();
@@ -121,12 +131,21 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         let points = results::in_order_of(&report.signals, steady);
         report.variants.push(Variant { name: variant.clone(), points, beside: Beside::Modes(modes) });
     }
-    results::deliver(context, (&arguments.model, &arguments.output), report, |report| match arguments.picture() {
+    let angles = arguments.output.angles();
+    let page = arguments.animate.is_some().then(|| animation::page_of_modes(&Scene::of(&loaded.assembled), &report, angles));
+    if let (Beside::Modes(modes), false) = (&mut report.beside, arguments.shapes || arguments.draws_shapes()) {
+        modes.leave_out_shapes();
+    }
+    let exit = results::deliver(context, (&arguments.model, &arguments.output), report, |report| match arguments.picture() {
         Picture::Locus => figures::modes::locus(report),
         Picture::Frequencies => figures::modes::frequencies(report),
         Picture::Shapes => figures::modes::shapes(report),
         Picture::Sensitivity => figures::modes::sensitivities(report),
-    })
+    });
+    if let (Ok(_), Some(path), Some(page)) = (&exit, &arguments.animate, page) {
+        animation::write(context, path, &page?)?;
+    }
+    exit
 }
 
 fn small_motions<'a>(arguments: &'a Arguments, request: &'a Request, loaded: &'a Loaded) -> SmallMotions<'a> {
@@ -142,8 +161,7 @@ fn analyzed(arguments: &Arguments, request: &Request, loaded: &Loaded, what: &st
     if accelerates(request.acceleration.as_ref()) {
         steady.warnings.push(FROZEN.to_owned());
     }
-    let drawn = arguments.output.plot.is_some() && arguments.picture() == Picture::Shapes;
-    let shapes = if arguments.shapes || drawn { Shapes::Shown } else { Shapes::LeftOut };
+    let shapes = if arguments.shapes || arguments.draws_shapes() || arguments.animate.is_some() { Shapes::Shown } else { Shapes::LeftOut };
     let modes = small_motions(arguments, request, loaded).along(&steady, shapes)?;
     Ok((steady, modes))
 }

@@ -1,8 +1,9 @@
 //! `run`: a motion over time.
 
 use super::{Kind, read};
+use crate::animation::{self, Scene};
 use crate::arguments::{ModelArguments, OutputArguments, argument};
-use crate::output::{Angles, History};
+use crate::output::{Angles, History, Results};
 use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::{Context, Exit, Failure, interrupt, maneuver, model, motion, results};
@@ -63,6 +64,9 @@ struct Arguments {
     /// Relative tolerance
     #[arg(long, value_name = "NUMBER", default_value = "1e-6")]
     rtol: String,
+    /// Animation to write: one .html file that opens in a browser without a network
+    #[arg(long, value_name = "FILE.html")]
+    animate: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -99,9 +103,14 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     // the signals shown are our choice
     let chosen = arguments.record.is_empty();
     let until = maneuver.iter().flat_map(|m| m.until.clone()).collect::<Vec<_>>();
+    let (times, relative_tolerance) = (times(&duration, arguments.rate.as_deref())?, tolerance(&arguments.rtol)?);
+    arguments.output.check()?;
+    arguments.animate.as_deref().map(animation::check).transpose()?;
+    let loaded = model::load(&arguments.model, context)?;
+    let scene = arguments.animate.is_some().then(|| Scene::of(&loaded.assembled));
     let request = motion::Request {
-        times: times(&duration, arguments.rate.as_deref())?,
-        relative_tolerance: tolerance(&arguments.rtol)?,
+        times,
+        relative_tolerance,
         backend: arguments.backend,
         formulation: arguments.formulation,
         steady: arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?,
@@ -110,9 +119,8 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         until: arguments.until.iter().cloned().chain(until).collect(),
         interrupt: (!context.console.is_memory()).then(interrupt::flag),
         record: arguments.record,
+        keep: scene.as_ref().map(Scene::signals),
     };
-    arguments.output.check()?;
-    let loaded = model::load(&arguments.model, context)?;
     let system = &loaded.assembled.system;
     let ride = maneuver.map(|maneuver| maneuver::ride(maneuver, system)).transpose()?;
     let mut history = motion::run(&request, system, &loaded.name, ride)?;
@@ -122,8 +130,15 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         outcome.because.as_ref().map(|because| format!("error: the motion ended at {reached:.6} s of {} s: {because}\n", outcome.duration));
     // unasked for, the energy of a conservative system would be a figure of rounding errors
     let drawn: Vec<usize> = history.shown.iter().copied().filter(|&s| !chosen || !history.signals[s].name.starts_with("system.")).collect();
+    let page = scene.map(|scene| {
+        let told = history.clone().in_axes(arguments.output.axes);
+        animation::page_of_run(&scene, &history, &told, arguments.output.angles())
+    });
     let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| figure(history, &drawn));
     context.console.complain(&ended.unwrap_or_default());
+    if let (Ok(_), Some(path), Some(page)) = (&exit, &arguments.animate, page) {
+        animation::write(context, path, &page)?;
+    }
     exit
 }
 

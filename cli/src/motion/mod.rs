@@ -13,12 +13,13 @@ use crate::output::{History, Outcome, Progress, small};
 use crate::maneuver::Ride;
 use crate::plan;
 pub use account::{DISSIPATED, ENERGY, SUPPLIED};
-use analyses::transient::{Cause, Method, Simulation, Start, Transient, TransientEnding, TransientError};
+use analyses::transient::{Cause, Method, Simulation, Start, Trajectory, Transient, TransientEnding, TransientError};
 use analyses::{ClosedLoop, Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
 use problem::{Controller, Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -64,6 +65,8 @@ pub struct Request {
     pub interrupt: Option<&'static Interrupt>,
     /// Signals to be recorded; none: all.
     pub record: Vec<String>,
+    /// Signals to be kept for an animation beside the coordinates, where they exist; `None` where there is no animation.
+    pub keep: Option<Vec<String>>,
 }
 
 /// What is recorded.
@@ -120,7 +123,8 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let names = Variables::of(&plant);
     let commanded = system.inputs().iter().map(|i| names.find(&i.signal.name).unwrap_or(Variable::Input(0)));
     let rates = (0..n).map(Variable::Rate).chain(commanded);
-    transient.record = (0..n).map(Variable::Unknown).chain(rates).chain(recorded.variables.iter().copied()).collect();
+    let beside = beside(request.keep.as_deref(), &plant);
+    transient.record = (0..n).map(Variable::Unknown).chain(rates).chain(recorded.variables.iter().chain(&beside).copied()).collect();
     let began = Instant::now();
     let simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
@@ -132,8 +136,10 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         ));
     }
     let accounts = account::account(&simulation, system);
-    let mut signals = simulation.trajectory.signals[2 * n + nu..].to_vec();
-    let mut columns = simulation.trajectory.columns[2 * n + nu..].to_vec();
+    let told_columns = 2 * n + nu..2 * n + nu + recorded.variables.len();
+    let mut signals = simulation.trajectory.signals[told_columns.clone()].to_vec();
+    let mut columns = simulation.trajectory.columns[told_columns.clone()].to_vec();
+    let kept = if request.keep.is_some() { kept(&simulation.trajectory, told_columns) } else { Trajectory::default() };
     for &(at, which) in &recorded.accounts {
         signals.insert(at, account::signals()[which].clone());
         columns.insert(at, accounts.columns[which].clone());
@@ -162,8 +168,23 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
             limits: simulation.limits,
             crossings: simulation.crossings,
         },
+        kept,
         warnings,
     })
+}
+
+/// Signals kept beside the recorded ones.
+fn beside(keep: Option<&[String]>, plant: &Ridden) -> Vec<Variable> {
+    let names = Variables::of(plant);
+    keep.unwrap_or_default().iter().filter_map(|name| names.find(name)).collect()
+}
+
+/// All of a trajectory but the signals that are told.
+fn kept(all: &Trajectory, told: Range<usize>) -> Trajectory {
+    fn others<T: Clone>(list: &[T], told: &Range<usize>) -> Vec<T> {
+        list[..told.start].iter().chain(&list[told.end..]).cloned().collect()
+    }
+    Trajectory { time: all.time.clone(), signals: others(&all.signals, &told), columns: others(&all.columns, &told) }
 }
 
 /// What multiplies absolute tolerances.

@@ -3,7 +3,8 @@
 //! `Φ = |p| − L`; p from the first point to the second, L length, m. The multiplier pushes the points apart.
 //! Source: elementary. Range: points that do not coincide.
 
-use super::law::{ConstraintLaw, Level, RowDeclared};
+use super::law::{ConstraintLaw, Level, Place, RowDeclared};
+use crate::model::Outline;
 use crate::scalar::Real;
 use crate::spatial::Pose;
 
@@ -25,6 +26,9 @@ impl ConstraintLaw for Distance {
             nominal: 0.01,
             level: Level::Position,
         }]
+    }
+    fn outline(&self, from: &Place, to: &Place) -> Option<Outline> {
+        Some(Outline::Rod { from: from.origin(), to: to.origin() })
     }
     fn error<R: Real>(&self, X_FM: &Pose<R>, error: &mut [R]) {
         error[0] = X_FM.p.norm() - self.length;

@@ -14,7 +14,7 @@
 
 use super::prescribed_motion::PrescribedMotion;
 use super::relative::relative_motion;
-use crate::model::{BodyIndex, Model};
+use crate::model::{Attachment, BodyIndex, Model, Outline};
 use crate::scalar::{Dual, Family, Jet, Make, PerScalar, Real, SystemScalar};
 use crate::spatial::{Pose, Rotation, Twist, Vec3, Wrench};
 use crate::stage::Workspace;
@@ -60,6 +60,10 @@ pub trait ConstraintLaw: fmt::Debug + Send + Sync + 'static {
     fn rows(&self) -> Vec<RowDeclared>;
     /// Axis of the second frame about which it may turn without any effect on the constraint (a rolling wheel).
     fn spin_axis(&self) -> Option<Vec3<f64>> {
+        None
+    }
+    /// What drawings show of it, between two frames; nothing without an override.
+    fn outline(&self, _from: &Place, _to: &Place) -> Option<Outline> {
         None
     }
     /// Writes the errors of the rows on coordinates.
@@ -218,6 +222,13 @@ pub struct Place {
     pub X_BF: Pose<f64>,
 }
 
+impl Place {
+    /// The origin of the frame.
+    pub fn origin(&self) -> Attachment {
+        (self.body, self.X_BF.p)
+    }
+}
+
 /// What is at work in a constraint.
 enum Kind {
     /// A law on the relative motion of the two frames.
@@ -249,6 +260,7 @@ pub struct Constraint {
     to: Place,
     rows: Vec<RowDeclared>,
     kind: Kind,
+    outline: Option<Outline>,
     text: String,
 }
 
@@ -268,9 +280,9 @@ impl Constraint {
         let positions = rows.iter().take_while(|r| r.level == Level::Position).count();
         assert!(rows.len() <= MAX_ROWS, "a constraint has at most {MAX_ROWS} rows");
         assert!(rows[positions..].iter().all(|r| r.level == Level::Velocity), "rows on coordinates come first");
-        let spin_axis = law.spin_axis();
+        let (spin_axis, outline) = (law.spin_axis(), law.outline(&from, &to));
         let kind = Kind::Law { positions, spin_axis, twins: PerScalar::new(&Maker(Arc::new(law))) };
-        Self { name: name.into(), from, to, rows, kind, text }
+        Self { name: name.into(), from, to, rows, kind, outline, text }
     }
 
     /// A prescribed coordinate of the joint that carries a body, under the name the user gave.
@@ -278,7 +290,7 @@ impl Constraint {
         let (body, text) = (model.body(drive.joint), format!("{drive:?}"));
         let from = Place { body: body.parent, X_BF: body.X_PF };
         let to = Place { body: drive.joint, X_BF: Pose::identity() };
-        Self { name: name.into(), from, to, rows: vec![drive.row(model)], kind: Kind::Drive(drive), text }
+        Self { name: name.into(), from, to, rows: vec![drive.row(model)], kind: Kind::Drive(drive), outline: None, text }
     }
 
     /// Inputs that the constraint reads: name, unit and sentence of each, in the order of [`Moment::inputs`]; each is the rate of the one before.
@@ -302,6 +314,11 @@ impl Constraint {
     /// Second frame; the wrench of the multipliers acts here.
     pub fn to(&self) -> &Place {
         &self.to
+    }
+
+    /// What drawings show of it.
+    pub fn outline(&self) -> Option<&Outline> {
+        self.outline.as_ref()
     }
 
     /// The rows.

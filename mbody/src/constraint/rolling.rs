@@ -10,8 +10,9 @@
 //!
 //! Source: J. I. Neimark, N. A. Fufaev, *Dynamics of Nonholonomic Systems*, 1972, chapter III. Range: as the contact geometry.
 
-use super::law::{ConstraintLaw, Level, RowDeclared};
+use super::law::{ConstraintLaw, Level, Place, RowDeclared};
 use crate::contact::{Contact, Plane, Profile, Surface};
+use crate::model::Outline;
 use crate::scalar::Real;
 use crate::spatial::{Pose, Twist, Vec3};
 
@@ -26,6 +27,9 @@ impl RoundBody {
     fn contact<R: Real>(&self, X_FM: &Pose<R>) -> Contact<R> {
         let axis = X_FM.R.times_const(self.axis);
         Contact::with_plane(&self.profile, X_FM.p, axis, &Plane::LEVEL.tangent_plane(X_FM.p.x, X_FM.p.y))
+    }
+    fn outline(&self, to: &Place) -> Outline {
+        Outline::Round { at: to.origin(), axis: to.X_BF.R * self.axis, profile: self.profile.clone() }
     }
 }
 
@@ -71,6 +75,9 @@ impl ConstraintLaw for SurfaceContact {
     fn spin_axis(&self) -> Option<Vec3<f64>> {
         Some(self.0.axis)
     }
+    fn outline(&self, _from: &Place, to: &Place) -> Option<Outline> {
+        Some(self.0.outline(to))
+    }
     fn error<R: Real>(&self, X_FM: &Pose<R>, error: &mut [R]) {
         error[0] = -self.0.contact(X_FM).penetration;
     }
@@ -97,6 +104,9 @@ impl ConstraintLaw for Rolling {
     }
     fn spin_axis(&self) -> Option<Vec3<f64>> {
         Some(self.0.axis)
+    }
+    fn outline(&self, _from: &Place, to: &Place) -> Option<Outline> {
+        Some(self.0.outline(to))
     }
     fn error<R: Real>(&self, X_FM: &Pose<R>, error: &mut [R]) {
         error[0] = -self.0.contact(X_FM).penetration;

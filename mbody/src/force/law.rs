@@ -1,6 +1,6 @@
 //! What a force element is: one law, generic over the scalar.
 
-use crate::model::{BodyIndex, Model};
+use crate::model::{BodyIndex, Model, Outline};
 use crate::scalar::{Family, Make, PerScalar, SystemScalar};
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
 use crate::stage::{Acceleration, Position, Velocity, World};
@@ -281,12 +281,17 @@ pub trait ForceLaw: Send + Sync + 'static {
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>);
     /// Energy account.
     fn energy<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> Energy<S>;
+    /// What drawings show of it; nothing without an override.
+    fn outlines(&self, _model: &Model) -> Vec<Outline> {
+        Vec::new()
+    }
 }
 
 /// A force element as the system stores it: object-safe for one scalar.
 trait ForceTwin<S>: Send + Sync {
     fn apply(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>);
     fn energy(&self, at: &Evaluated<'_, S>) -> Energy<S>;
+    fn outlines(&self, model: &Model) -> Vec<Outline>;
 }
 
 impl<L: ForceLaw, S: SystemScalar> ForceTwin<S> for L {
@@ -295,6 +300,9 @@ impl<L: ForceLaw, S: SystemScalar> ForceTwin<S> for L {
     }
     fn energy(&self, at: &Evaluated<'_, S>) -> Energy<S> {
         ForceLaw::energy(self, at)
+    }
+    fn outlines(&self, model: &Model) -> Vec<Outline> {
+        ForceLaw::outlines(self, model)
     }
 }
 
@@ -353,5 +361,10 @@ impl Force {
     #[inline]
     pub fn energy<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> Energy<S> {
         S::pick(&self.twins).energy(at)
+    }
+
+    /// What drawings show of it.
+    pub fn outlines(&self, model: &Model) -> Vec<Outline> {
+        f64::pick(&self.twins).outlines(model)
     }
 }

@@ -4,7 +4,7 @@
 //! B and `−F u` on A. Symbols: l₀ free length, m; F of [`super::characteristic`]. Not defined where the points coincide.
 
 use super::{Declared, Effort, Energy, Evaluated, ForceLaw, LimitDeclared, OutputDeclared, SpringDamperLaw, joint_spring::stop_limits};
-use crate::model::BodyIndex;
+use crate::model::{BodyIndex, Model, Outline};
 use crate::scalar::SystemScalar;
 use crate::spatial::Vec3;
 
@@ -70,5 +70,8 @@ impl ForceLaw for SpringDamper {
         let line = self.line(at);
         let v = -line.length_rate;
         Energy { stored: self.law.stored(-line.length + self.free_length), supplied: S::zero(), dissipated: self.law.viscous(v) * v }
+    }
+    fn outlines(&self, _model: &Model) -> Vec<Outline> {
+        vec![Outline::Spring { from: self.from, to: self.to }]
     }
 }

@@ -4,11 +4,13 @@ mod body;
 mod builder;
 mod index;
 mod layout;
+mod outline;
 
 pub use body::{Body, Frame};
 pub use builder::{BuildError, ModelBuilder};
 pub use index::{BodyIndex, FrameIndex};
 pub use layout::{Follower, Layout};
+pub use outline::{Attachment, Outline};
 
 use crate::spatial::Vec3;
 

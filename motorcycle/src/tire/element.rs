@@ -12,7 +12,9 @@ use super::rolling_resistance::RollingResistance;
 use super::vertical::Vertical;
 use super::wheel::{Rolling, Wheel};
 use mbody::force::{Declared, Effort, Energy, Evaluated, ForceLaw, StateDeclared};
+use mbody::model::{Model, Outline};
 use mbody::scalar::SystemScalar;
+use mbody::spatial::Vec3;
 
 /// How the tire gives way between rim and road.
 #[derive(Clone, Debug)]
@@ -96,6 +98,12 @@ impl ForceLaw for Tire {
     fn energy<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> Energy<S> {
         let rolling = self.wheel.rolling(at);
         self.patch(&rolling, at).energy(&rolling)
+    }
+
+    fn outlines(&self, model: &Model) -> Vec<Outline> {
+        let axis = model.body(self.wheel.body).joint.rotation_axis();
+        let round = |axis| Outline::Round { at: (self.wheel.body, Vec3::zero()), axis, profile: self.wheel.profile.clone() };
+        axis.map(round).into_iter().collect()
     }
 }
 

@@ -7,7 +7,7 @@ pub(super) mod table;
 use super::axes::Axes;
 use super::report::turned;
 use super::{Given, Kind, Results, Writer};
-use analyses::transient::{Crossing, Drift, LimitMet};
+use analyses::transient::{Crossing, Drift, LimitMet, Trajectory};
 use problem::{IntegrationOutcome, Signal};
 
 /// How an integration went.
@@ -58,6 +58,8 @@ pub struct History {
     pub columns: Vec<Vec<f64>>,
     /// How it went.
     pub outcome: Outcome,
+    /// The coordinates, and what else was to be kept for an animation; always in ISO axes. Empty where nobody asked.
+    pub kept: Trajectory,
     /// What the reader should know beside the results. The table leaves them to standard error.
     pub warnings: Vec<String>,
 }

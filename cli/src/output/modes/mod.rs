@@ -123,6 +123,12 @@ pub struct ModesAlong {
 }
 
 impl ModesAlong {
+    /// As if nobody had asked for shapes.
+    pub fn leave_out_shapes(&mut self) {
+        self.shape_signals.clear();
+        self.points.iter_mut().flatten().flat_map(|p| &mut p.modes).for_each(|m| m.shape.clear());
+    }
+
     /// Refers the shapes and what was prescribed to other axes.
     pub(super) fn turn(&mut self, given: &[Given], factor: &dyn Fn(&str) -> f64) {
         let factors: Vec<f64> = self.shape_signals.iter().map(|s| factor(&s.name)).collect();
