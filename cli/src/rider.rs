@@ -4,17 +4,18 @@
 
 use crate::Failure;
 use crate::output::Point;
+use crate::output::rider::RiderAlong;
 use crate::plan::{Prescribed, Request, Turn, base_name};
 use crate::small_motions::SmallMotions;
 use crate::steady;
-use analyses::regulator::{Course as Line, Design, Regulator, follow};
+use analyses::regulator::{Actuator, Course as Line, Design, Regulator, follow};
 use analyses::LinearModel;
 use mbody::description::finding::Finding;
 use mbody::dynamics::{System, TreePlant};
 use motorcycle::maneuver::{Course, RiderDescription};
 use motorcycle::rider::schedule::Table;
 use motorcycle::rider::{Reins, Rider, RowLayout, Settings};
-use problem::Dae;
+use problem::{Dae, Signal};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -79,6 +80,7 @@ pub struct Task<'a> {
     pub front_brake_share: f64,
 }
 
+
 /// Speeds from the slowest to the fastest, close enough to each other.
 fn speeds((low, high): (f64, f64)) -> Vec<f64> {
     let (low, high) = ((0.85 * low).max(SLOWEST), (1.15 * high).max(SLOWEST * 1.5));
@@ -132,9 +134,7 @@ impl Task<'_> {
     /// The vehicle cannot be steered, has no steady states there, or no feedback stabilizes it.
     pub fn design(&self, course: Course) -> Result<Designed, Failure> {
         let plant = TreePlant::new(self.system.clone());
-        let Some(base) = base_name(&plant) else {
-            return Err(Finding::error("no_vehicle_base", "this model has no vehicle base, so nobody can ride it").into());
-        };
+        let base = ridable(&plant)?;
         let reins = reins(&plant, &base)?;
         let speeds = speeds(course.speed.range());
         let greatest = 1.15 * course.speed.greatest_lateral(&course.path) + 0.5;
@@ -149,17 +149,10 @@ impl Task<'_> {
         }
         let models = self.linear(&steady)?;
         let held: Vec<String> = models[0].states.iter().map(|s| s.signal.name.to_string()).filter(|n| is_held(n, &base)).collect();
-        let design = |preview: f64| Design {
-            input: reins.commands[0].clone(),
-            effort: self.wishes.torque.map_or(USUAL.2, |q| q.si()),
-            deviations: Vec::new(),
-            path: (self.wishes.offset.map_or(USUAL.0, |q| q.si()), self.wishes.heading.map_or(USUAL.1, |q| q.si())),
-            held: held.clone(),
-            preview: (preview, (preview / INTERVAL).round() as usize),
-        };
+        let (design, actuator) = (self.wanted(&reins, &held), self.actuator());
         let regulators = self.regulators(&steady, &models, &base, &plant, &design)?;
         let feedback = regulators[0].states.clone();
-        let layout = RowLayout { feedback: feedback.len(), preview: regulators[0].preview.weights.len() };
+        let layout = RowLayout { feedback: feedback.len(), preview: regulators[0].preview.weights.len(), human: actuator.states() };
         let per_speed = if reins.commands.len() == 4 { self.driving(&speeds, &steady, laterals.len())? } else { Driving::none(&speeds) };
         let value = |point: &Point, name: &str| steady.signals.iter().position(|s| s.name == *name).map_or(0.0, |k| point.value(k));
         let rows: Vec<Vec<f64>> = (steady.points.iter().zip(&regulators).enumerate())
@@ -174,6 +167,7 @@ impl Task<'_> {
                 row[layout.torque_per_acceleration()] = per_speed.torque_per_acceleration[k / laterals.len()];
                 row[layout.slip()] = value(point, &reins.base[4]).atan2(value(point, &reins.base[3]));
                 regulator.preview.weights.iter().enumerate().for_each(|(i, w)| row[layout.preview(i)] = *w);
+                regulator.actuator_gains.iter().enumerate().for_each(|(i, g)| row[layout.human_gain(i)] = *g);
                 row
             })
             .collect();
@@ -194,21 +188,92 @@ impl Task<'_> {
             speed_integral_gain: SPEED_BANDWIDTH * SPEED_BANDWIDTH,
             brake_per_drive: per_speed.brake_per_drive,
             front_share: per_speed.front_share,
-            delay: self.wishes.delay.map(|q| q.si()),
-            lag: self.wishes.muscles.map(|q| (q.si(), MUSCLE_DAMPING)),
+            delay: actuator.delay,
+            lag: actuator.lag,
         };
         let broken = || Finding::error("no_rider", "the table of the rider does not go together");
+        let laterals_count = laterals.len();
         let table = Table::new(speeds, laterals, &rows).ok_or_else(broken)?;
         let reins = Reins { feedback: feedback.clone(), ..reins };
-        let rider = Rider::new(reins, settings, layout, table, course).ok_or_else(broken)?;
+        let start = table.nodes().0.iter().rposition(|v| *v <= course.speed.first()).unwrap_or(0);
+        let held_at_start = rows[start * laterals_count + laterals_count / 2][layout.torque()];
+        let mut rider = Rider::new(reins, settings, layout, table, course).ok_or_else(broken)?;
+        rider.start_with(held_at_start);
         Ok(Designed { rider, nodes, feedback, warnings })
+    }
+
+    /// The design at every point of a grid; points without a steady state or without a stabilizing feedback say why.
+    ///
+    /// # Errors
+    /// The vehicle cannot be ridden at all.
+    pub fn along(&self, speeds: &[f64], laterals: &[f64]) -> Result<(steady::Steady, RiderAlong), Failure> {
+        let plant = TreePlant::new(self.system.clone());
+        let base = ridable(&plant)?;
+        let reins = reins(&plant, &base)?;
+        let steady = self.steady(speeds, laterals, None)?;
+        let models = self.motions(&Request::default()).linear_models(&steady).points;
+        let first = models.iter().flatten().next();
+        let held: Vec<String> = first.iter().flat_map(|m| &m.states).map(|s| s.signal.name.clone()).filter(|n| is_held(n, &base)).collect();
+        let design = self.wanted(&reins, &held);
+        let one = |point: &Point, model: &Result<LinearModel, String>| {
+            let model = model.as_ref().map_err(String::clone)?;
+            let mut found = Err(String::new());
+            for preview in self.previews() {
+                found = follow(model, &line(point, &plant, &base), &design(preview)).map_err(|e| e.to_string());
+                if found.as_ref().map_or(true, |r| r.preview.tail < FAR_ENOUGH) {
+                    break;
+                }
+            }
+            found
+        };
+        let points: Vec<Result<Regulator, String>> = steady.points.par_iter().zip(&models).map(|(p, m)| one(p, m)).collect();
+        let signal = |name: &str, unit: &'static str, about: &'static str| Signal::new(name, unit, about);
+        let mut feedback: Vec<Signal> = Vec::new();
+        if let Some(regulator) = points.iter().flatten().next() {
+            let of = |name: &String| plant.unknowns().iter().find(|u| u.signal.name == *name).map(|u| u.signal.clone());
+            feedback.extend(regulator.states.iter().filter_map(of));
+            feedback.push(signal("path.offset", "m", "offset from the path, positive to the left"));
+            feedback.push(signal("path.heading", "rad", "heading against that of the path, positive to the left"));
+            let delay = [signal("rider.delay", "N m s^2", "torque on its way"), signal("rider.delay_rate", "N m s", "torque on its way")];
+            let lag = [signal("rider.muscle_torque", "N m", "torque of the muscles"), signal("rider.muscle_torque_rate", "N m/s", "its rate")];
+            feedback.extend(self.wishes.delay.is_some().then_some(delay).into_iter().flatten());
+            feedback.extend(self.wishes.muscles.is_some().then_some(lag).into_iter().flatten());
+        }
+        Ok((steady, RiderAlong { effort: "N m".to_owned(), feedback, points }))
+    }
+
+    /// What is wanted, for a preview (s).
+    fn wanted(&self, reins: &Reins, held: &[String]) -> impl Fn(f64) -> Design + Sync {
+        let actuator = self.actuator();
+        let design = Design {
+            input: reins.commands[0].clone(),
+            effort: self.wishes.torque.map_or(USUAL.2, |q| q.si()),
+            deviations: Vec::new(),
+            path: (self.wishes.offset.map_or(USUAL.0, |q| q.si()), self.wishes.heading.map_or(USUAL.1, |q| q.si())),
+            held: held.to_vec(),
+            preview: (0.0, 0),
+            actuator,
+        };
+        move |preview: f64| Design { preview: (preview, (preview / INTERVAL).round() as usize), ..design.clone() }
+    }
+
+    fn actuator(&self) -> Actuator {
+        Actuator { delay: self.wishes.delay.map(|q| q.si()), lag: self.wishes.muscles.map(|q| (q.si(), MUSCLE_DAMPING)) }
+    }
+
+    /// Previews to be tried, s.
+    fn previews(&self) -> Vec<f64> {
+        self.wishes.preview.map_or(PREVIEWS.to_vec(), |wanted| vec![wanted.si()])
+    }
+
+    fn motions<'a>(&'a self, request: &'a Request) -> SmallMotions<'a> {
+        SmallMotions { request, system: self.system, backend: self.backend, residual_tolerance: 1e-6 }
     }
 
     /// Linear models at all points, with the same states.
     fn linear(&self, steady: &steady::Steady) -> Result<Vec<LinearModel>, Failure> {
         let request = Request::default();
-        let motions = SmallMotions { request: &request, system: self.system, backend: self.backend, residual_tolerance: 1e-6 };
-        let models: Result<Vec<LinearModel>, String> = motions.linear_models(steady).points.into_iter().collect();
+        let models: Result<Vec<LinearModel>, String> = self.motions(&request).linear_models(steady).points.into_iter().collect();
         models.map_err(|why| Finding::error("no_linear_model", format!("the rider cannot be made: {why}")).into())
     }
 
@@ -219,22 +284,14 @@ impl Task<'_> {
         models: &[LinearModel],
         base: &str,
         plant: &TreePlant,
-        design: &dyn Fn(f64) -> Design,
+        design: &(dyn Fn(f64) -> Design + Sync),
     ) -> Result<Vec<Regulator>, Failure> {
-        let at = |name: String| plant.unknowns().iter().position(|u| u.signal.name == name).unwrap_or_default();
-        let (forward, lateral, yaw) = (at(format!("{base}.forward_speed")), at(format!("{base}.lateral_speed")), at(format!("{base}.yaw_rate")));
-        let previews: &[f64] = match &self.wishes.preview {
-            Some(wanted) => &[wanted.si()],
-            None => &PREVIEWS,
-        };
         let mut found = Vec::new();
-        for &preview in previews {
+        for preview in self.previews() {
             let design = design(preview);
             let regulators: Result<Vec<Regulator>, Failure> = (steady.points.par_iter().zip(models))
                 .map(|(point, model)| {
-                    let speed = (point.value(forward), point.value(lateral));
-                    let line = Line { lateral_speed: lateral, yaw_rate: yaw, speed, curvature: point.value(yaw) / speed.0.hypot(speed.1) };
-                    follow(model, &line, &design).map_err(|why| {
+                    follow(model, &line(point, plant, base), &design).map_err(|why| {
                         let message = format!("no rider at {:.1} m/s and {:.1} m/s² to the side: {why}", point.given[0], point.given[1]);
                         Finding::error("no_rider", message).into()
                     })
@@ -295,6 +352,20 @@ impl Driving {
 /// States that the speed section holds: the speed itself and the spins of the wheels.
 fn is_held(name: &str, base: &str) -> bool {
     name == format!("{base}.forward_speed") || name.ends_with("_wheel.spin_rate")
+}
+
+/// Name of the base of a vehicle that somebody may ride.
+fn ridable(plant: &TreePlant) -> Result<String, Failure> {
+    let missing = || Finding::error("no_vehicle_base", "this model has no vehicle base, so nobody can ride it");
+    base_name(plant).ok_or_else(|| missing().into())
+}
+
+/// How a vehicle moves along its path in a steady state.
+fn line(point: &Point, plant: &TreePlant, base: &str) -> Line {
+    let at = |name: String| plant.unknowns().iter().position(|u| u.signal.name == name).unwrap_or_default();
+    let [forward, lateral_speed, yaw_rate] = ["forward_speed", "lateral_speed", "yaw_rate"].map(|name| at(format!("{base}.{name}")));
+    let speed = (point.value(forward), point.value(lateral_speed));
+    Line { lateral_speed, yaw_rate, speed, curvature: point.value(yaw_rate) / speed.0.hypot(speed.1) }
 }
 
 /// What a rider can read and command on this vehicle.

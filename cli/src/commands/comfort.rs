@@ -137,7 +137,7 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
     let mut curves: Vec<Curve> = Vec::new();
     let mut add = |name: String, at: f64, value: f64| match curves.iter_mut().find(|c| c.name == name) {
         Some(curve) => curve.points.push((at, value)),
-        None => curves.push(Curve { name, points: vec![(at, value)], markers: Markers::Never }),
+        None => curves.push(Curve { name, points: vec![(at, value)], markers: Markers::Never, variant: 0 }),
     };
     for (k, point) in report.points.iter().enumerate() {
         let others: Vec<String> = (1..report.given.len())
@@ -168,5 +168,6 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
         x: Axis::new("speed", "m/s"),
         panels: vec![LinePanel { y: Axis::new("weighted acceleration", "m/s^2"), curves }],
         bands: Vec::new(),
+        variants: Vec::new(),
     }))
 }

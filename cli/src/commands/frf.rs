@@ -147,6 +147,7 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
         x: if logarithmic { axis.logarithmic() } else { axis },
         panels,
         bands: Vec::new(),
+        variants: Vec::new(),
     }))
 }
 
@@ -161,7 +162,7 @@ fn curves(report: &Report, responses: &Responses, output: usize, of: &dyn Fn(f64
             let factor = quotient(input, &responses.outputs[output], Angles::Degrees).1;
             let values = of(factor, &point.values[k * responses.outputs.len() + output]);
             let points = point.frequencies.iter().copied().zip(values).collect();
-            curves.push(Curve { name: names.join(", "), points, markers: Markers::Never });
+            curves.push(Curve { name: names.join(", "), points, markers: Markers::Never, variant: 0 });
         }
     }
     curves

@@ -8,6 +8,7 @@ mod info;
 mod linearize;
 mod map;
 mod modes;
+mod rider;
 mod run;
 mod schema;
 mod slalom;
@@ -35,7 +36,7 @@ pub const KINDS: &[Kind] = &[
     slalom::KIND,
     comfort::KIND,
     linearize::KIND,
-    run::KIND,
+    rider::KIND, run::KIND,
     info::KIND,
     check::KIND,
     dynamics::KIND,

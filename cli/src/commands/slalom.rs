@@ -99,7 +99,7 @@ fn figure(report: &Report, spacing: f64) -> Result<Figure, Failure> {
         let value = (at.given[0], point.as_ref().map_or(f64::NAN, |p| p.values[0][0].norm() * factor));
         match curves.iter_mut().find(|c| c.name == name) {
             Some(curve) => curve.points.push(value),
-            None => curves.push(Curve { name, points: vec![value], markers: Markers::WhenFew }),
+            None => curves.push(Curve { name, points: vec![value], markers: Markers::WhenFew, variant: 0 }),
         }
     }
     Ok(Figure::Lines(Lines {
@@ -107,5 +107,6 @@ fn figure(report: &Report, spacing: f64) -> Result<Figure, Failure> {
         x: Axis::new("speed", "m/s"),
         panels: vec![LinePanel { y: Axis::new(format!("{} / {}", output.name, input.name), unit), curves }],
         bands: Vec::new(),
+        variants: Vec::new(),
     }))
 }

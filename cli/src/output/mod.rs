@@ -20,6 +20,7 @@ mod palette;
 mod progress;
 mod report;
 pub mod responses;
+pub mod rider;
 #[cfg(test)]
 mod sample;
 mod table;

@@ -4,7 +4,7 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Beside, Point, Report};
-use super::{Angles, Kind, Options, comfort, history, linear, modes, responses, versus};
+use super::{Angles, Kind, Options, comfort, history, linear, modes, responses, rider, versus};
 use problem::Ending;
 use std::io;
 
@@ -38,6 +38,7 @@ fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Res
         Beside::Modes(modes) => return modes::write_table(report, modes, options, out),
         Beside::Responses(responses) => return responses::write_table(report, responses, options, out),
         Beside::Comfort(comfort) => return comfort::write_table(report, comfort, options, out),
+        Beside::Rider(along) => return rider::write_table(report, along, options, out),
     }
     match report.points.as_slice() {
         [] => {}

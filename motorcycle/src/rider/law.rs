@@ -91,10 +91,13 @@ impl Rider {
             let seen = self.course.path.curvature(s + V * (k as f64 * self.settings.interval));
             torque += entry(self.layout.preview(k)) * (seen - present);
         }
+        let human = &x[self.human_states()..];
+        let steady = self.human_at(entry(self.layout.torque()));
+        for k in 0..self.layout.human {
+            torque -= entry(self.layout.human_gain(k)) * (human[k] - steady[k]);
+        }
         let torque = bounded(torque, self.settings.greatest_torque);
-        let (steered, next) = self.human(torque, &x[self.human_states()..], &mut reply.rates);
-        reply.commands[0] = steered + self.course.pulses(time);
-        debug_assert!(next <= MOST);
+        reply.commands[0] = self.human(torque, human, &mut reply.rates) + self.course.pulses(time);
         // speed
         let (target, wanted) = self.course.speed.at(time, s, along);
         if let Some(integral) = self.speed_state() {
@@ -118,8 +121,18 @@ impl Rider {
         reply
     }
 
-    /// Delay and lag of a human; returns the torque at the bar and the first state after theirs.
-    fn human<S: Real>(&self, torque: S, x: &[S], rates: &mut [S; MOST]) -> (S, usize) {
+    /// States of delay and muscles where the torque is steady.
+    pub(super) fn human_at<S: Real>(&self, torque: S) -> [S; 4] {
+        let zero = S::zero();
+        match (self.settings.delay, self.settings.lag) {
+            (Some(delay), Some(_)) => [torque * (delay * delay / 12.0), zero, torque, zero],
+            (Some(delay), None) => [torque * (delay * delay / 12.0), zero, zero, zero],
+            _ => [torque, zero, zero, zero],
+        }
+    }
+
+    /// Delay and lag of a human: rates of their states; returns the torque at the bar.
+    fn human<S: Real>(&self, torque: S, x: &[S], rates: &mut [S; MOST]) -> S {
         let (mut out, mut k, first) = (torque, 0, self.human_states());
         if let Some(delay) = self.settings.delay {
             // (s² − b s + a)/(s² + b s + a) with a = 12/T², b = 6/T
@@ -133,9 +146,8 @@ impl Rider {
             rates[first + k] = x[k + 1];
             rates[first + k + 1] = (out - x[k]) * (frequency * frequency) - x[k + 1] * (2.0 * damping * frequency);
             out = x[k];
-            k += 2;
         }
-        (out, first + k)
+        out
     }
 }
 

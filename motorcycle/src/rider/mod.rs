@@ -55,6 +55,8 @@ pub struct RowLayout {
     pub feedback: usize,
     /// Number of samples of the path ahead.
     pub preview: usize,
+    /// Number of states of delay and muscles, which are fed back too.
+    pub human: usize,
 }
 
 impl RowLayout {
@@ -86,9 +88,13 @@ impl RowLayout {
     pub fn preview(&self, k: usize) -> usize {
         2 * self.feedback + 6 + k
     }
+    /// Gain of a state of delay and muscles.
+    pub fn human_gain(&self, k: usize) -> usize {
+        2 * self.feedback + 6 + self.preview + k
+    }
     /// Length of a row.
     pub fn width(&self) -> usize {
-        2 * self.feedback + 6 + self.preview
+        2 * self.feedback + 6 + self.preview + self.human
     }
 }
 
@@ -127,7 +133,8 @@ impl Rider {
     /// A rider on a course. `None` where the table has another width than its layout says, or the speed is held without its inputs.
     pub fn new(reins: Reins, settings: Settings, layout: RowLayout, table: Table, course: Course) -> Option<Self> {
         let holds_speed = reins.commands.len() == 4;
-        let fits = table.width() == layout.width() && reins.feedback.len() == layout.feedback;
+        let human = 2 * usize::from(settings.delay.is_some()) + 2 * usize::from(settings.lag.is_some());
+        let fits = table.width() == layout.width() && layout.human == human && reins.feedback.len() == layout.feedback;
         if !fits || !(holds_speed || reins.commands.len() == 1) {
             return None;
         }
@@ -175,14 +182,10 @@ impl Rider {
         &self.course
     }
 
-    /// Lets the states begin where the torques of a steady state stand: a muscle that holds, an integral at rest.
+    /// Lets delay and muscles begin where they hold a steady torque, N m.
     pub fn start_with(&mut self, torque: f64) {
-        for state in &mut self.states {
-            let start = match state.signal.name.as_str() {
-                "rider.muscle_torque" => torque,
-                "rider.delay" => self.settings.delay.map_or(0.0, |delay| torque * delay * delay / 12.0),
-                _ => continue,
-            };
+        let (first, steady) = (self.human_states(), self.human_at(torque));
+        for (state, start) in self.states[first..].iter_mut().zip(steady) {
             (state.start, state.design) = (Some(start), start);
         }
     }

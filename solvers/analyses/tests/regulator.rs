@@ -4,7 +4,7 @@
 
 use analyses::linearize::{Cyclic, State};
 use analyses::LinearModel;
-use analyses::regulator::{Course, Design, Regulator, follow};
+use analyses::regulator::{Actuator, Course, Design, Regulator, follow};
 use nalgebra::{DMatrix, DVector};
 use problem::{Input, Signal, UnknownKind};
 
@@ -48,6 +48,7 @@ fn design(preview: (f64, usize)) -> Design {
         path: (0.3, 0.05),
         held: Vec::new(),
         preview,
+        actuator: Actuator::default(),
     }
 }
 
@@ -145,4 +146,20 @@ fn a_held_state_is_not_fed_back_and_names_are_checked() {
     let held = Design { held: vec!["nothing".to_owned()], ..design((1.0, 4)) };
     let error = follow(&model(), &course(0.0), &held).unwrap_err().to_string();
     assert_eq!(error, "the linear model has no state `nothing`");
+}
+
+#[test]
+fn a_dead_time_and_a_lag_are_part_of_the_design() {
+    let actuator = Actuator { delay: Some(0.15), lag: Some((30.0, 0.7)) };
+    let slow = follow(&model(), &course(0.0), &Design { actuator, ..design((4.0, 40)) }).unwrap();
+    assert_eq!((slow.actuator_gains.len(), slow.closed.len()), (4, 8));
+    // the closed loop has the poles of the whole: the dead time alone has its own at 6/T and beyond
+    assert!(slow.closed.iter().all(|s| s.re < 0.0));
+    // as both vanish the gains become those without
+    let quick = Actuator { delay: Some(1e-4), lag: Some((3e4, 0.7)) };
+    let near = follow(&model(), &course(0.0), &Design { actuator: quick, ..design((4.0, 40)) }).unwrap();
+    let plain = follow(&model(), &course(0.0), &design((4.0, 40))).unwrap();
+    for (a, b) in near.gains.iter().zip(&plain.gains).chain(near.path_gains.iter().zip(&plain.path_gains)) {
+        assert!((a - b).abs() < 1e-2 * b.abs(), "{a} against {b}");
+    }
 }

@@ -30,6 +30,8 @@ pub struct Margins {
     pub greatest_factor: Option<f64>,
     /// Smallest distance of L from −1; the inverse of the largest sensitivity.
     pub distance: f64,
+    /// Frequencies, Hz, and L there.
+    pub response: Vec<(f64, Complex<f64>)>,
 }
 
 impl Margins {
@@ -58,7 +60,8 @@ impl Margins {
             let frequency = frequency(0.5 * (a + b));
             (frequency, at(frequency))
         };
-        let mut margins = Self { crossings: Vec::new(), least_factor: None, greatest_factor: None, distance };
+        let response = values.iter().enumerate().map(|(i, l)| (frequency(i as f64), *l)).collect();
+        let mut margins = Self { crossings: Vec::new(), least_factor: None, greatest_factor: None, distance, response };
         for i in 0..count - 1 {
             let (a, b) = (values[i], values[i + 1]);
             if (a.norm() - 1.0) * (b.norm() - 1.0) < 0.0 {

@@ -61,6 +61,57 @@ pub struct Design {
     pub held: Vec<String>,
     /// How long it looks ahead, s, and in how many intervals (even).
     pub preview: (f64, usize),
+    /// What lies between the input of the regulator and that of the model.
+    pub actuator: Actuator,
+}
+
+/// A dead time and a lag between what is wanted and what acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Actuator {
+    /// Dead time T, s, as `(s² − b s + a)/(s² + b s + a)`, a = 12/T², b = 6/T (Padé, second order); none: at once.
+    pub delay: Option<f64>,
+    /// Natural frequency, rad/s, and damping ratio of a lag of second order.
+    pub lag: Option<(f64, f64)>,
+}
+
+impl Actuator {
+    /// Number of its states: two of the dead time, then two of the lag.
+    pub fn states(&self) -> usize {
+        2 * usize::from(self.delay.is_some()) + 2 * usize::from(self.lag.is_some())
+    }
+
+    /// Puts it before `ẋ = A x + B u` with one input: its states follow those of the model.
+    fn before(&self, A: DMatrix<f64>, B: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+        let (n, m) = (A.nrows(), self.states());
+        let (mut all, mut input) = (DMatrix::zeros(n + m, n + m), DMatrix::zeros(n + m, 1));
+        all.view_mut((0, 0), (n, n)).copy_from(&A);
+        // what acts on the next stage: a share of the input and a row over the states
+        let (mut direct, mut row) = (1.0, DMatrix::zeros(1, n + m));
+        let mut k = n;
+        if let Some(delay) = self.delay {
+            let (a, b) = (12.0 / (delay * delay), 6.0 / delay);
+            (all[(k, k + 1)], all[(k + 1, k)], all[(k + 1, k + 1)], input[k + 1]) = (1.0, -a, -b, 1.0);
+            row[k + 1] = -2.0 * b;
+            k += 2;
+        }
+        if let Some((frequency, damping)) = self.lag {
+            let stiffness = frequency * frequency;
+            let mut rate = &row * stiffness;
+            rate[k] -= stiffness;
+            rate[k + 1] -= 2.0 * damping * frequency;
+            all[(k, k + 1)] = 1.0;
+            all.row_mut(k + 1).copy_from(&rate.row(0));
+            input[k + 1] = direct * stiffness;
+            (direct, row) = (0.0, DMatrix::zeros(1, n + m));
+            row[k] = 1.0;
+        }
+        let driven = &B * &row;
+        let above = all.rows(0, n) + driven;
+        all.rows_mut(0, n).copy_from(&above);
+        let own = input.rows(0, n) + B * direct;
+        input.rows_mut(0, n).copy_from(&own);
+        (all, input)
+    }
 }
 
 /// A regulator for one linear model.
@@ -72,6 +123,8 @@ pub struct Regulator {
     pub gains: Vec<f64>,
     /// Gains of offset and heading error.
     pub path_gains: [f64; 2],
+    /// Gains of the states of the actuator.
+    pub actuator_gains: Vec<f64>,
     /// How it looks ahead.
     pub preview: Preview,
     /// Eigenvalues of the closed loop, states and path, 1/s.
@@ -108,8 +161,9 @@ pub enum RegulatorError {
 /// One Riccati equation; some 10⁶ operations per 20 states.
 pub fn follow(model: &LinearModel, course: &Course, design: &Design) -> Result<Regulator, RegulatorError> {
     let (A, B, kept) = extended(model, course, design)?;
-    let n = kept.len();
-    let mut Q = DMatrix::zeros(n + 2, n + 2);
+    let (n, m) = (kept.len(), design.actuator.states());
+    let (A, B) = design.actuator.before(A, B);
+    let mut Q = DMatrix::zeros(n + 2 + m, n + 2 + m);
     for (name, deviation) in &design.deviations {
         let k = kept.iter().position(|&k| model.states[k].signal.name == *name);
         let k = k.ok_or_else(|| RegulatorError::Unknown { what: "state", name: name.clone() })?;
@@ -117,7 +171,7 @@ pub fn follow(model: &LinearModel, course: &Course, design: &Design) -> Result<R
     }
     (Q[(n, n)], Q[(n + 1, n + 1)]) = (design.path.0.powi(-2), design.path.1.powi(-2));
     let R = DMatrix::from_element(1, 1, design.effort.powi(-2));
-    let nominal: Vec<f64> = kept.iter().map(|&k| model.states[k].nominal).chain([design.path.0, design.path.1]).collect();
+    let nominal: Vec<f64> = kept.iter().map(|&k| model.states[k].nominal).chain([design.path.0, design.path.1]).chain(actuated(design)).collect();
     let solved = riccati((&A, &B), (&Q, &R), &nominal)?;
     let speed = course.speed.0.hypot(course.speed.1);
     let bent = solved.P.column(n + 1) * speed;
@@ -126,10 +180,18 @@ pub fn follow(model: &LinearModel, course: &Course, design: &Design) -> Result<R
         states: kept.iter().map(|&k| model.states[k].signal.name.to_string()).collect(),
         gains: solved.K.iter().take(n).copied().collect(),
         path_gains: [solved.K[n], solved.K[n + 1]],
+        actuator_gains: solved.K.iter().skip(n + 2).copied().collect(),
         preview,
         closed: solved.closed.complex_eigenvalues().iter().copied().collect(),
         margins: Margins::of(&A, &B, &solved.K),
     })
+}
+
+/// Typical magnitudes of the states of the actuator.
+fn actuated(design: &Design) -> Vec<f64> {
+    let delay = design.actuator.delay.map(|t| [design.effort * t * t / 12.0, design.effort * t]);
+    let lag = design.actuator.lag.map(|(frequency, _)| [design.effort, design.effort * frequency]);
+    delay.into_iter().chain(lag).flatten().collect()
 }
 
 /// `ẋ = A x + B u` of the kept states, then offset and heading error; indices of the kept states.

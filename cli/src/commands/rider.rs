@@ -1,0 +1,182 @@
+//! `rider`: the design of the virtual rider.
+
+use super::{Kind, read};
+use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
+use crate::figures::modes::quantity;
+use crate::output::rider::loop_of;
+use crate::output::{Angles, Beside, Report};
+use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Locus, Markers, RootLocus};
+use crate::rider::Task;
+use crate::{Context, Exit, Failure, model, results};
+use clap::{ArgMatches, Args, Command, ValueEnum};
+use mbody::description::finding::{Finding, Severity};
+use mbody::description::quantity::Quantity;
+use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Length, Speed, Time, Torque};
+use motorcycle::maneuver::RiderDescription;
+
+/// Row of the table of commands.
+pub const KIND: Kind = Kind { name: "rider", command, run };
+
+/// What `--plot` draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Picture {
+    /// Magnitude and phase of the open loop
+    Loop,
+    /// Poles of the closed loop
+    Poles,
+    /// Gains over speed
+    Gains,
+}
+
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+struct Arguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    /// Forward speed
+    #[arg(long, value_name = "SPEED", default_value = "10..50:5")]
+    speed: String,
+    /// Lateral acceleration, positive to the left
+    #[arg(long, value_name = "ACCELERATION", default_value = "0", allow_hyphen_values = true)]
+    lateral_acceleration: String,
+    /// Offset from the path that counts as much as --heading and --torque
+    #[arg(long, value_name = "LENGTH", default_value = "0.3m")]
+    offset: String,
+    /// Heading error that counts as much
+    #[arg(long, value_name = "ANGLE", default_value = "0.05rad")]
+    heading: String,
+    /// Steering torque that counts as much
+    #[arg(long, value_name = "TORQUE", default_value = "20N m")]
+    torque: String,
+    /// Reaction time (Padé, second order); left out: none
+    #[arg(long, value_name = "TIME")]
+    delay: Option<String>,
+    /// Natural frequency of the muscles; left out: they follow at once
+    #[arg(long, value_name = "FREQUENCY")]
+    muscles: Option<String>,
+    /// What --plot draws
+    #[arg(long, value_name = "PICTURE", value_enum, default_value = "loop")]
+    figure: Picture,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+fn command(command: Command) -> Command {
+    Arguments::augment_args(command).about("Design of the virtual rider: gains, margins, poles of the closed loop").after_help(
+        "At every point the vehicle is trimmed and linearized, and the feedback is computed that holds a path best for what counts as much as what. \
+         Gains that do not stabilize are refused. `run` makes the same rider for a maneuver.\n\n\
+         Examples:\n  fastbike rider gsxr1000 --speed 10..50:5 --plot loop.svg\n  \
+         fastbike rider gsxr1000 --speed 30 --delay 0.1s --muscles 30rad/s --format json",
+    )
+}
+
+/// One positive value.
+fn positive<D: mbody::description::quantity::Dimensioned>(option: &str, text: &str) -> Result<f64, Failure> {
+    match sweep::<D>(option, text)?[..] {
+        [value] if value > 0.0 => Ok(value),
+        [_] => Err(argument(option, text, "out_of_range", "this must be greater than 0".to_owned()).into()),
+        _ => Err(argument(option, text, "wrong_count", "this takes one value".to_owned()).into()),
+    }
+}
+
+fn wishes(arguments: &Arguments) -> Result<RiderDescription, Failure> {
+    fn some<D: mbody::description::quantity::Dimensioned>(
+        option: &str,
+        text: Option<&String>,
+    ) -> Result<Option<mbody::description::quantity::PositiveQuantity<D>>, Failure> {
+        let Some(text) = text else { return Ok(None) };
+        let value = positive::<D>(option, text)?;
+        Quantity::new(value).map(Some).map_err(|e| argument(option, text, e.code(), e.to_string()).into())
+    }
+    Ok(RiderDescription {
+        offset: some::<Length>("offset", Some(&arguments.offset))?,
+        heading: some::<Angle>("heading", Some(&arguments.heading))?,
+        torque: some::<Torque>("torque", Some(&arguments.torque))?,
+        delay: some::<Time>("delay", arguments.delay.as_ref())?,
+        muscles: some::<AngularSpeed>("muscles", arguments.muscles.as_ref())?,
+        ..RiderDescription::default()
+    })
+}
+
+fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
+    let arguments: Arguments = read(matches)?;
+    let speeds = sweep::<Speed>("speed", &arguments.speed)?;
+    let laterals = sweep::<Acceleration>("lateral-acceleration", &arguments.lateral_acceleration)?;
+    let wishes = wishes(&arguments)?;
+    arguments.output.check()?;
+    let loaded = model::load(&arguments.model, context)?;
+    let task = Task { system: &loaded.assembled.system, backend: "kinsol", wishes: &wishes, front_brake_share: 0.7 };
+    let (mut steady, rider) = task.along(&speeds, &laterals)?;
+    steady.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(ToString::to_string));
+    let mut report = results::report("rider", &loaded.name, Vec::new(), steady);
+    report.beside = Beside::Rider(rider);
+    results::deliver(context, (&arguments.model, &arguments.output), report, |report| figure(report, arguments.figure))
+}
+
+fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {
+    let Beside::Rider(along) = &report.beside else { return Err(Finding::error("no_sweep", "there is nothing to draw").into()) };
+    let varies = |k: usize| report.points.windows(2).any(|w| w[0].given[k] != w[1].given[k]);
+    let name = |point: usize| {
+        let of = (0..report.given.len()).filter(|&k| varies(k) || report.points.len() == 1);
+        of.map(|k| quantity(&report.given[k].name, &report.given[k].unit, report.points[point].given[k])).collect::<Vec<_>>().join(", ")
+    };
+    let known: Vec<usize> = (0..along.points.len()).filter(|&k| along.points[k].is_ok()).collect();
+    let title = |what: &str| format!("{what} of the rider of {}", report.model);
+    match picture {
+        Picture::Loop => {
+            // as many as can be told apart
+            let count = known.len().min(6);
+            let chosen: Vec<usize> = (0..count).map(|i| known[i * (known.len() - 1) / (count - 1).max(1)]).collect();
+            let curves = |of: &dyn Fn(&(f64, f64, f64)) -> f64| {
+                let curve = |&k: &usize| {
+                    let points = along.points[k].iter().flat_map(loop_of).filter(|p| p.0 >= 0.05 && p.0 <= 30.0).map(|p| (p.0, of(&p)));
+                    Curve { name: name(k), points: points.collect(), markers: Markers::Never, variant: 0 }
+                };
+                chosen.iter().map(curve).collect::<Vec<_>>()
+            };
+            let panels = vec![
+                LinePanel { y: Axis::new("Magnitude", "dB"), curves: curves(&|p| 20.0 * p.1.log10()) },
+                LinePanel { y: Axis::new("Phase", "deg"), curves: curves(&|p| p.2.to_degrees()) },
+            ];
+            let x = Axis::new("Frequency", "Hz").logarithmic();
+            Ok(Figure::Lines(Lines { title: title("Open loop"), x, panels, bands: Vec::new(), variants: Vec::new() }))
+        }
+        Picture::Poles => {
+            let poles = |k: usize| along.points[k].iter().flat_map(|r| &r.closed).filter(|s| s.im >= 0.0).map(|s| (s.re, s.im));
+            let branches = known.iter().flat_map(|&k| {
+                poles(k).map(move |p| (k, p)).collect::<Vec<_>>()
+            });
+            let branches = branches.map(|(k, p)| Locus { name: name(k), points: vec![p], begins: false, variant: 0 }).collect();
+            Ok(Figure::RootLocus(RootLocus { title: title("Closed loop"), branches, first: String::new(), variants: Vec::new() }))
+        }
+        Picture::Gains => {
+            if !varies(0) {
+                let finding = Finding::error("no_sweep", "gains of a single speed would be an empty figure");
+                return Err(finding.with_hint("sweep the speed, for example `--speed 10..50:2`").into());
+            }
+            let panels = along.feedback.iter().enumerate().filter(|(_, s)| drawn(&s.name)).map(|(i, signal)| {
+                let mut curves: Vec<Curve> = Vec::new();
+                for &k in &known {
+                    let at = &report.points[k].given;
+                    let name = if varies(1) { quantity(&report.given[1].name, &report.given[1].unit, at[1]) } else { String::new() };
+                    let gain = along.points[k].as_ref().map_or(f64::NAN, |r| {
+                        r.gains.iter().chain(&r.path_gains).chain(&r.actuator_gains).nth(i).copied().unwrap_or(f64::NAN)
+                    });
+                    match curves.iter_mut().find(|c| c.name == name) {
+                        Some(curve) => curve.points.push((at[0], gain)),
+                        None => curves.push(Curve { name, points: vec![(at[0], gain)], markers: Markers::WhenFew, variant: 0 }),
+                    }
+                }
+                let shown = Angles::Radians.show(&signal.unit);
+                LinePanel { y: Axis::new(signal.name.clone(), format!("N m/({})", shown.unit)), curves }
+            });
+            let panels = panels.collect();
+            Ok(Figure::Lines(Lines { title: title("Gains"), x: Axis::new("speed", "m/s"), panels, bands: Vec::new(), variants: Vec::new() }))
+        }
+    }
+}
+
+/// The gains that a reader looks for.
+fn drawn(name: &str) -> bool {
+    ["path.offset", "path.heading", ".roll", ".roll_rate", "steer.angle", "steer.rate"].iter().any(|end| name.ends_with(end))
+}
