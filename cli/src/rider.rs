@@ -243,7 +243,7 @@ impl Task<'_> {
     }
 
     /// What is wanted, for a preview (s).
-    fn wanted(&self, reins: &Reins, held: &[String]) -> impl Fn(f64) -> Design + Sync {
+    fn wanted(&self, reins: &Reins, held: &[String]) -> impl Fn(f64) -> Design + Sync + use<> {
         let actuator = self.actuator();
         let design = Design {
             input: reins.commands[0].clone(),
