@@ -151,8 +151,11 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
     }))
 }
 
+/// What is drawn of a response: from the factor of its unit and its values.
+type Part<'a> = &'a dyn Fn(f64, &[Complex<f64>]) -> Vec<f64>;
+
 /// Curves of one output: a curve per point and input.
-fn curves(report: &Report, responses: &Responses, output: usize, of: &dyn Fn(f64, &[Complex<f64>]) -> Vec<f64>) -> Vec<Curve> {
+fn curves(report: &Report, responses: &Responses, output: usize, of: Part<'_>) -> Vec<Curve> {
     let mut curves = Vec::new();
     for (at, point) in report.points.iter().zip(&responses.points) {
         let Ok(point) = point else { continue };
