@@ -13,6 +13,8 @@ mod moto11;
 mod ref11;
 mod rolling_disc;
 mod sel04;
+mod sharp1971;
+mod trends;
 
 use validation::evidence;
 
@@ -22,7 +24,14 @@ fn the_table_of_evidence_is_up_to_date() {
     let rows: Vec<_> = vehicles
         .iter()
         .chain(bicycle::EVIDENCE)
-        .chain([&mechanisms::EVIDENCE, &motions::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE])
+        .chain([
+            &mechanisms::EVIDENCE,
+            &motions::EVIDENCE,
+            &rolling_disc::EVIDENCE,
+            &gsxr1000_linkage::EVIDENCE,
+            &sharp1971::EVIDENCE,
+            &trends::EVIDENCE,
+        ])
         .copied()
         .collect();
     evidence::hold("validation", &rows);
