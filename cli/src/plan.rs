@@ -241,7 +241,7 @@ const MOST_POINTS: f64 = 1e6;
 
 /// First guess of the heave at rest, m: tires that merely touch the road carry nothing, and a vehicle that they do not carry would
 /// find its balance on one wheel.
-const FIRST_HEAVE: f64 = -0.005;
+const FIRST_HEAVE: f64 = -0.01;
 
 /// States of tires that are zero where a vehicle stands upright.
 const LATERAL_STATES: [&str; 3] = [".carcass_lateral", ".lagged_lateral_force", ".lagged_lateral_slip"];
@@ -280,6 +280,13 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Takes the height of the design pose for the first guess: right for vehicles that rest in it.
+    pub fn start_at_design_height(&mut self, plant: &dyn Plant) {
+        if let Some(base) = base_name(plant) {
+            self.trim.guess(&format!("{base}.heave"), 0.0);
+        }
+    }
+
     /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the plant there.
     pub fn start_from(&mut self, plant: &dyn Plant, pose: &[f64]) {
         for (unknown, &value) in plant.unknowns().iter().zip(pose) {

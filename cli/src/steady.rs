@@ -123,10 +123,20 @@ fn rest_pose(system: &Arc<System>, backend: &AlgebraicBackend) -> Vec<f64> {
     let design = system.unknowns().iter().map(|u| u.design).collect();
     let mut plant = TreePlant::new(system.clone());
     let Ok(plan) = Request::default().at_rest(&plant) else { return design };
-    match walk(&mut plant, &plan, backend, &[]) {
+    match stand(&mut plant, plan, backend) {
         Ok(point) if point.solved => point.y,
         _ => design,
     }
+}
+
+/// The static pose: from tires pressed onto the road, else from the design pose.
+fn stand(plant: &mut TreePlant, mut plan: Plan, backend: &AlgebraicBackend) -> Result<TrimPoint, TrimError> {
+    let first = walk(plant, &plan, backend, &[])?;
+    if first.solved {
+        return Ok(first);
+    }
+    plan.start_at_design_height(plant);
+    Ok(walk(plant, &plan, backend, &[]).ok().filter(|second| second.solved).unwrap_or(first))
 }
 
 impl Job<'_> {
@@ -242,7 +252,7 @@ impl Job<'_> {
     fn at_rest(&self) -> Result<TrimPoint, Failure> {
         let mut plant = TreePlant::new(self.system.clone());
         let plan = self.request.at_rest(&plant)?;
-        walk(&mut plant, &plan, self.backend, &[]).map_err(Failure::Trim)
+        stand(&mut plant, plan, self.backend).map_err(Failure::Trim)
     }
 
     /// Walks from straight running at the same speed to the goal.

@@ -80,6 +80,42 @@ fn the_examples_can_be_built() {
     }
 }
 
+/// A rigid tire on the front wheel of the example tree, held by a constraint.
+fn rigid(constraint: &str, changes: &[(&str, &str)]) -> (Option<Assembled>, Findings) {
+    let carcass = ("carcass", "{ rigid: { contact: held, relaxation: { force: { length: { constant: 0.25 m } } } } }");
+    let parameters = tire(&[&[carcass][..], changes].concat());
+    let description = format!(
+        "fastbike: 1\nname: test\nurdf: test.urdf\nbase: vehicle_base\nconstraints:\n  held: {constraint}\nelements:\n  tire: {{ tire: {parameters} }}\n"
+    );
+    let files = Files { description, tree: TireDescription::TREE.into() };
+    assemble("test.yaml", &files, &Kinds::standard().with(motorcycle::KINDS), &[])
+}
+
+#[test]
+fn a_rigid_tire_takes_its_load_from_the_constraint_that_holds_it() {
+    let held = "{ surface_contact: { link: front_roller, at: [0, 0, 0], axis: [0, 1, 0], radius: 0.3 m, crown_radius: 60 mm } }";
+    let (assembled, findings) = rigid(held, &[]);
+    let system = assembled.unwrap_or_else(|| panic!("{findings:?}")).system;
+    assert!(system.unknowns().iter().any(|u| u.signal.name == "held.normal_force"));
+    assert!(system.inputs().iter().all(|i| !i.signal.name.contains("height")), "it has no road of its own");
+
+    let wrong = held.replace("front_roller", "rear_roller");
+    let point = "{ distance: { from: { link: frame, at: [0.7, 0, 0.6] }, to: { link: front_roller, at: [0, 0, 0] } } }";
+    let (road, other) = (("road", "front_road"), ("carcass", "{ rigid: { contact: hled } }"));
+    let (key, small) = ("carcass.rigid.contact", ("radius", "0.29 m"));
+    for (constraint, change, code, key, words) in [
+        (wrong.as_str(), None, "wrong_constraint", key, "`held` does not hold the wheel `front_roller`"),
+        (point, None, "wrong_constraint", key, "`held` does not hold the wheel"),
+        (held, Some(other), "unknown_constraint", key, "constraint `hled` does not exist"),
+        (held, Some(small), "contradictory_entries", key, "-10.0000 mm deep in the road"),
+        (held, Some(road), "contradictory_entries", "road", "the road `front_road` has no height"),
+    ] {
+        let (found, path, message) = only(rigid(constraint, change.as_slice()));
+        assert_eq!((found, path.as_str()), (code, format!("elements.tire.tire.{key}").as_str()), "{message}");
+        assert!(message.contains(words), "{message}");
+    }
+}
+
 #[test]
 fn states_follow_the_carcass() {
     let spring = "{ stiffness: 160 kN/m, damping: 100 N s/m }";

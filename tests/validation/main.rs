@@ -15,6 +15,8 @@ mod ref11;
 mod responses;
 mod rolling_disc;
 mod sel04;
+mod sharp1971;
+mod trends;
 
 use validation::evidence;
 
@@ -31,6 +33,8 @@ fn the_table_of_evidence_is_up_to_date() {
             &gsxr1000_linkage::EVIDENCE,
             &responses::EVIDENCE,
             &gsxr1000_acceleration::EVIDENCE,
+            &sharp1971::EVIDENCE,
+            &trends::EVIDENCE,
         ])
         .copied()
         .collect();

@@ -2,11 +2,12 @@
 //!
 //! Out of the plane of symmetry: weave, wobble and rear wobble oscillate, capsize and caster are real, lags of the tires are fast and real. In the
 //! plane: bounce, pitch and the hops of the wheels; a suspension that is damped beyond its critical value has two real ones of the same name.
-//! The spins of the wheels against their slip are fast and real, the speed against the drag is slow.
+//! The spins of the wheels against their slip are fast and real, the speed against the drag is slow. A rider who leans and a structure that
+//! gives way have oscillations of their own.
 //!
 //! Bands: R. S. Sharp, S. Evangelou, D. J. N. Limebeer, “Advances in the modelling of motorcycle dynamics”, Multibody Syst. Dyn. 12 (2004)
 //! 251–283 (weave below 4 Hz, wobble 6 to 10 Hz, hops 10 to 15 Hz); V. Cossalter, *Motorcycle Dynamics*, 2nd ed. 2006, chapter 7 (capsize, rear
-//! wobble); weights of participation: chosen here, on the bundled vehicles between 3 and 60 m/s.
+//! wobble); weights of participation: chosen here, on the bundled vehicles between 5 and 80 m/s.
 
 use problem::{ModeRule, Nature, Occurs};
 
@@ -47,7 +48,16 @@ pub const MODE_RULES: &[ModeRule] = &[
     oscillation(
         "wobble",
         "the front assembly shakes about the steering axis",
-        &[("steer.angle", 1.0), ("front_tire.*lateral*", 1.0), ("*.yaw_rate", 0.6), ("*.lateral_speed", 0.4), ("*.roll", 0.3)],
+        &[
+            ("steer.angle", 1.0),
+            ("front_tire.*lateral*", 1.0),
+            ("*.yaw_rate", 0.6),
+            ("frame_torsion.*", 0.6),
+            ("fork_*.angle", 0.6),
+            ("*.lateral_speed", 0.5),
+            ("*.roll", 0.4),
+            ("rider_lean.*", 0.2),
+        ],
         (5.0, 11.0),
         ANY,
     ),
@@ -55,9 +65,17 @@ pub const MODE_RULES: &[ModeRule] = &[
     oscillation(
         "rear wobble",
         "the rear end shakes sideways on its tire",
-        &[("rear_tire.*lateral*", 1.0), ("*.lateral_speed", 0.8), ("*.roll", 0.7), ("*.yaw_rate", 0.5)],
+        &[
+            ("rear_tire.*lateral*", 1.0),
+            ("swingarm_torsion.*", 0.8),
+            ("rear_torsion.*", 0.8),
+            ("*.lateral_speed", 0.7),
+            ("*.roll", 0.6),
+            ("rider_lean.*", 0.3),
+            ("*.yaw_rate", 0.2),
+        ],
         (5.0, 12.0),
-        (0.15, 1.0),
+        (0.3, 1.0),
     ),
     oscillation(
         "bounce",
@@ -75,6 +93,19 @@ pub const MODE_RULES: &[ModeRule] = &[
     ),
     oscillation("front hop", "the front wheel hops on its tire", &[("fork.travel", 1.0), ("*.pitch", 0.3)], (7.0, 25.0), ANY),
     oscillation("rear hop", "the rear wheel hops on its tire", &[("swingarm.angle", 1.0), ("*.heave", 0.3)], (7.0, 25.0), ANY),
+    oscillation("rider lean", "the rider's upper body leans against the saddle", &[("rider_lean.*", 1.0)], (0.5, 15.0), ANY),
+    // structure: names of joints as in the bundled vehicles
+    oscillation("frame twist", "the frame twists ahead of the engine", &[("frame_torsion.*", 1.0)], (10.0, 40.0), ANY),
+    oscillation("head bending", "the steering head gives way sideways", &[("head_lateral.*", 1.0)], (30.0, 200.0), ANY),
+    oscillation("fork bending", "the fork bends sideways", &[("fork_bending.*", 1.0)], (20.0, 120.0), ANY),
+    oscillation("fork twist", "the fork twists between bar and wheel", &[("fork_torsion.*", 1.0)], (20.0, 80.0), ANY),
+    oscillation(
+        "swingarm twist",
+        "the swing arm twists with the rear wheel",
+        &[("swingarm_torsion.*", 1.0), ("rear_torsion.*", 1.0)],
+        (25.0, 100.0),
+        ANY,
+    ),
     real("capsize", "the vehicle falls over slowly, or comes up", &[("*.roll", 1.0), ("*.yaw_rate", 0.3)], (0.0, 0.7), Occurs::Once),
     real("speed", "the speed settles between drive and drag", &[("*.forward_speed", 1.0), ("*.spin_rate", 0.9)], (0.0, 0.2), Occurs::Once),
     real(

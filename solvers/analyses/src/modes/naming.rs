@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use problem::{ModeRule, Nature, Occurs};
 
 /// Scores below this are no recognition.
-const FAINT: f64 = 0.15;
+pub(super) const FAINT: f64 = 0.15;
 
 /// Widths of the Gaussians outside the bands: ratio of frequencies (logarithm), difference of damping ratios.
 const WIDTHS: (f64, f64) = (0.35, 0.1);

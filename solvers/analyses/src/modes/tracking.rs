@@ -10,13 +10,14 @@
 //! Real eigenvalues that pass each other on the axis exchange their vectors, by way of a short-lived pair or not at all visibly: what was the spin
 //! of a wheel is a suspension afterwards. A real mode, or one damped nearly as much, therefore keeps its name only while no other
 //! rule fits clearly better; oscillations keep theirs, whatever they turn into. Two oscillations may veer: come close and leave on each other's way. Where
-//! the rules hold (straight running) they exchange their names as soon as the names of each other fit both clearly better.
+//! the rules hold (straight running) they exchange their names as soon as the names of each other fit both clearly better, and a pair that came out of two real
+//! eigenvalues takes the name of an oscillation that fits it clearly better.
 //!
 //! Source: theory manual 8.4; R. J. Allemang, D. L. Brown, Proc. 1st Int. Modal Analysis Conf. 1982 (MAC).
 
 use super::Modes;
 use super::assignment::cheapest;
-use super::naming::{Name, assign, classify, confidence, scores};
+use super::naming::{FAINT, Name, assign, classify, confidence, scores};
 use nalgebra::{Complex, DMatrix, DVector};
 use problem::{ModeRule, Nature, Occurs};
 
@@ -131,7 +132,7 @@ pub fn names(points: &[Option<&Modes>], plain: &[bool], edges: &[Edge], rules: &
                 if let (None, Some(from), Some(to), Some(names)) = (&named[next], points[at], points[next], &named[at]) {
                     let mut names = carried(from, names, &link, to, rules);
                     if plain[next] {
-                        exchange(&mut names, to, rules);
+                        mend(&mut names, to, rules);
                     }
                     named[next] = Some(names);
                     reached.push(next);
@@ -142,8 +143,9 @@ pub fn names(points: &[Option<&Modes>], plain: &[bool], edges: &[Edge], rules: &
     named.into_iter().map(Option::unwrap_or_default).collect()
 }
 
-/// Where two oscillations fit each other's names clearly better, they exchange them: their paths have veered away from each other.
-fn exchange(names: &mut [Name], modes: &Modes, rules: &[ModeRule]) {
+/// Mends names of oscillations where the rules hold. Two that fit each other's names clearly better exchange them: their paths have veered away
+/// from each other. One that fits a name clearly better that no oscillation has takes it: it came out of real eigenvalues.
+fn mend(names: &mut [Name], modes: &Modes, rules: &[ModeRule]) {
     let scores = scores(modes, rules);
     let rule = |name: &Name| {
         let of_name = |r: &ModeRule| r.name == name.name && r.nature == Nature::Oscillation && r.occurs == Occurs::Once;
@@ -158,6 +160,15 @@ fn exchange(names: &mut [Name], modes: &Modes, rules: &[ModeRule]) {
                 let name = |m: usize, r: usize| Name { name: rules[r].name.to_owned(), confidence: confidence(&scores, m, r, rules) };
                 (names[a], names[b]) = (name(a, of_b), name(b, of_a));
             }
+        }
+    }
+    for &m in &shake {
+        let own = (0..rules.len()).filter(|&r| rules[r].name == names[m].name).map(|r| scores[(m, r)]).fold(0.0, f64::max);
+        let taken = |name: &str| shake.iter().any(|&other| names[other].name == name);
+        let open = (0..rules.len()).filter(|&r| rules[r].nature == Nature::Oscillation && !taken(rules[r].name));
+        let best = open.max_by(|&a, &b| scores[(m, a)].total_cmp(&scores[(m, b)]));
+        if let Some(r) = best.filter(|&r| scores[(m, r)] > FAINT.max(CLEARLY * own)) {
+            names[m] = Name { name: rules[r].name.to_owned(), confidence: confidence(&scores, m, r, rules) };
         }
     }
 }
