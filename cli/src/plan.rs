@@ -214,6 +214,19 @@ const MOST_POINTS: f64 = 1e6;
 /// find its balance on one wheel.
 const FIRST_HEAVE: f64 = -0.01;
 
+/// Braking that is easy at every speed, m/s².
+const EASY_BRAKING: f64 = -3.0;
+
+/// Straight running at the same speed, braking as far as that is easy.
+fn easy(goals: &[f64], braking: f64) -> Vec<f64> {
+    let of = |(i, &goal): (usize, &f64)| match i {
+        0 => goal,
+        2 => goal.clamp(braking, 0.0),
+        _ => 0.0,
+    };
+    goals.iter().enumerate().map(of).collect()
+}
+
 /// Who drives: the engine or the brakes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
@@ -346,7 +359,12 @@ impl Request {
             largest_steps.push(3.0);
         }
         self.wishes(&mut trim)?;
-        Ok(Plan { trim, easy: |goals| goals.iter().enumerate().map(|(i, &g)| if i == 0 { g } else { 0.0 }).collect(), largest_steps })
+        // brakes that push against the drag of a fast vehicle would ask too much of the front tire
+        let easy: fn(&[f64]) -> Vec<f64> = match drive {
+            Drive::Engine => |goals| easy(goals, 0.0),
+            Drive::Brakes => |goals| easy(goals, EASY_BRAKING),
+        };
+        Ok(Plan { trim, easy, largest_steps })
     }
 
     /// Brake torques are found, the engine is off.

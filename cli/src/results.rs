@@ -36,7 +36,7 @@ pub fn shown(show: &[String], system: &Arc<System>) -> Result<Vec<usize>, Failur
 /// A report of steady states; `shown` are the signals of the table.
 pub fn report(command: &str, model: &str, shown: Vec<usize>, steady: Steady) -> Report {
     let mut report = Report::new(command, model, steady.given, steady.signals);
-    (report.points, report.warnings, report.shown) = (steady.points, steady.warnings, shown);
+    (report.points, report.limits, report.warnings, report.shown) = (steady.points, steady.limits, steady.warnings, shown);
     report
 }
 

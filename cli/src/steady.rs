@@ -7,7 +7,7 @@ use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
 use crate::{Failure, backend};
 use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};
-use problem::{Ending, Plant, Signal};
+use problem::{AlgebraicMethod, Ending, Plant, Signal};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -20,6 +20,8 @@ pub struct Steady {
     pub signals: Vec<Signal>,
     /// Points in the order of the grid, the last prescribed quantity running fastest.
     pub points: Vec<Point>,
+    /// Last steady states before a limit, between the points of a grid of two quantities.
+    pub limits: Vec<Point>,
     /// What the reader should know.
     pub warnings: Vec<String>,
 }
@@ -65,10 +67,12 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
     let progress = Progress::new(what, goals.len());
     // a line is what one task walks along: all turns and accelerations at one speed; lines are independent
     let line = goals.len() / request.speed.as_ref().map_or(1, |p| p.values.len()).max(1);
-    let lines: Vec<Result<Vec<Point>, Failure>> = goals.par_chunks(line.max(1)).map(|line| job.line(line, &progress)).collect();
-    let mut points = Vec::new();
+    let lines: Vec<Result<Line, Failure>> = goals.par_chunks(line.max(1)).map(|line| job.line(line, &progress)).collect();
+    let (mut points, mut limits) = (Vec::new(), Vec::new());
     for line in lines {
-        points.extend(line?);
+        let line = line?;
+        points.extend(line.points);
+        limits.extend(line.limits);
     }
     let mut warnings = Vec::new();
     if request.acceleration.is_some() && request.turn.is_some() {
@@ -77,7 +81,7 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
                 .to_owned(),
         );
     }
-    Ok(Steady { given, signals: signals(&plant), points, warnings })
+    Ok(Steady { given, signals: signals(&plant), points, limits, warnings })
 }
 
 fn grid(request: &Request) -> Vec<Goal> {
@@ -94,6 +98,16 @@ fn grid(request: &Request) -> Vec<Goal> {
     }
     goals
 }
+
+/// What is found at one speed: points of the grid, and the last ones before limits.
+#[derive(Default)]
+struct Line {
+    points: Vec<Point>,
+    limits: Vec<Point>,
+}
+
+/// Halvings of a step of the grid in which a limit is found.
+const HALVINGS: usize = 7;
 
 /// What every point of a run shares.
 struct Job<'a> {
@@ -117,30 +131,30 @@ fn rest_pose(system: &Arc<System>, backend: &AlgebraicBackend) -> Vec<f64> {
 
 impl Job<'_> {
     /// The points at one speed. Turns without acceleration are walked from one to the next; the rest goes point by point.
-    fn line(&self, goals: &[Goal], progress: &Progress) -> Result<Vec<Point>, Failure> {
-        let mut points = Vec::new();
+    fn line(&self, goals: &[Goal], progress: &Progress) -> Result<Line, Failure> {
+        let mut line = Line::default();
         let chained = match (goals, self.request.turn.as_ref().map(|t| t.0)) {
             ([first, _, ..], Some(turn)) if turn != Turn::SteerTorque && first.acceleration.is_none() => self.chain(goals)?,
             _ => None,
         };
         match chained {
             Some(chained) => {
-                points = chained;
+                line = chained;
                 goals.iter().for_each(|_| progress.advance());
             }
             None => {
                 for goal in goals {
-                    points.extend(self.point(*goal)?);
+                    line.points.extend(self.point(*goal)?);
                     progress.advance();
                 }
             }
         }
-        Ok(points)
+        Ok(line)
     }
 
     /// Walks from straight running through turns of growing size, to either side. Where a path ends, every turn beyond it has
     /// the same cause. `None` where straight running at this speed cannot be found directly.
-    fn chain(&self, goals: &[Goal]) -> Result<Option<Vec<Point>>, Failure> {
+    fn chain(&self, goals: &[Goal]) -> Result<Option<Line>, Failure> {
         let Some(speed) = goals.first().and_then(|g| g.speed) else { return Ok(None) };
         let mut plant = TreePlant::new(self.system.clone());
         let mut plan = self.request.moving(&plant, self.system, Drive::Engine, speed)?;
@@ -157,13 +171,16 @@ impl Job<'_> {
         let anchor = (straight, x);
         let mut last = [anchor.clone(), anchor.clone()];
         let mut ended: [Option<(f64, Ending)>; 2] = [None, None];
-        let mut points = Vec::new();
+        // the last state within all limits to either side, and whether the one beyond is known
+        let mut inside: [Option<TrimPoint>; 2] = [None, None];
+        let mut bounded = [self.request.swept() != 2; 2];
+        let mut line = Line::default();
         for goal in goals {
             let turn = self.turn(*goal);
             let side = usize::from(turn < 0.0);
             let given = vec![speed, goal.turn.unwrap_or_default()];
             if let Some((_, ending)) = ended[side].as_ref().filter(|(end, _)| turn.abs() >= end.abs()) {
-                points.push(Point {
+                line.points.push(Point {
                     given,
                     ending: ending.clone(),
                     iterations: 0,
@@ -181,9 +198,20 @@ impl Job<'_> {
                 true => last[side] = (target, found.x.clone()),
                 false => ended[side] = Some((turn, found.ending.clone())),
             }
-            points.push(to_point(given, found));
+            match (found.ending == Ending::Reached, bounded[side], &inside[side]) {
+                (true, ..) => inside[side] = Some(found.clone()),
+                (false, false, Some(last)) => {
+                    bounded[side] = true;
+                    let limit = limit(&walk, &mut problem, method.as_mut(), last, turn)?;
+                    let at = limit.goals[1].1;
+                    let at = if self.request.turn.as_ref().is_some_and(|t| t.0 == Turn::Radius) { 1.0 / at } else { at };
+                    line.limits.push(to_point(vec![speed, at], limit));
+                }
+                _ => {}
+            }
+            line.points.push(to_point(given, found));
         }
-        Ok(Some(points))
+        Ok(Some(line))
     }
 
     /// The turn in the terms of the trim: a radius is an inverse curvature.
@@ -265,6 +293,28 @@ pub fn trim_at(request: &Request, system: &Arc<System>, point: &Point) -> Result
     let goals = [Some(speed.unwrap_or(1.0)), Some(turn.unwrap_or(0.0)), acceleration];
     goals.into_iter().flatten().enumerate().for_each(|(goal, value)| trim.set_goal(goal, value));
     Ok(trim)
+}
+
+/// The last steady state within all limits on the way from one to a turn beyond, to a small part of the way.
+fn limit(
+    walk: &Walk,
+    problem: &mut TrimProblem<'_>,
+    method: &mut dyn AlgebraicMethod,
+    inside: &TrimPoint,
+    beyond: f64,
+) -> Result<TrimPoint, TrimError> {
+    let (mut last, mut beyond) = (inside.clone(), beyond);
+    for _ in 0..HALVINGS {
+        let goals: Vec<f64> = last.goals.iter().map(|(_, v)| *v).collect();
+        let mut target = goals.clone();
+        target[1] = 0.5 * (target[1] + beyond);
+        let trial = walk.reach(problem, method, (&goals, &last.x), &target)?;
+        match trial.ending == Ending::Reached {
+            true => last = trial,
+            false => beyond = target[1],
+        }
+    }
+    Ok(last)
 }
 
 fn torque_is_negative(point: &TrimPoint, system: &System) -> bool {

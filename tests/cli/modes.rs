@@ -63,13 +63,15 @@ fn every_mode_of_the_bundled_motorcycles_is_recognized() {
 /// A name is carried along: in a turn, and under brakes or power, from straight running.
 #[test]
 fn names_are_kept_along_sweeps() {
-    for more in [&[][..], &["--lateral-acceleration", "5"], &["--acceleration", "-5"], &["--acceleration", "3"]] {
-        let arguments = [&["modes", "gsxr1000", "--speed", "10..60:5", "--format", "json"][..], more].concat();
+    for more in [&[][..], &["--lateral-acceleration", "-5"], &["--acceleration", "-5"], &["--acceleration", "3"]] {
+        let arguments = [&["modes", "gsxr1000", "--speed", "5..80:5", "--format", "json"][..], more].concat();
         let report = json(&arguments, 0);
         let points = report["points"].as_array().expect("points");
-        assert_eq!(points.len(), 11);
+        assert_eq!(points.len(), 16);
+        let frozen = report["warnings"].as_array().expect("warnings").iter().any(|w| w.as_str().is_some_and(|w| w.contains("frozen time")));
+        assert_eq!(frozen, more.first() == Some(&"--acceleration"));
         for point in points {
-            for (name, low, high) in [("weave", 0.5, 5.0), ("wobble", 5.0, 10.0), ("pitch", 6.0, 7.0), ("bounce", 2.5, 4.5)] {
+            for (name, low, high) in [("weave", 0.3, 5.0), ("wobble", 4.6, 10.5), ("pitch", 5.9, 7.0), ("bounce", 2.4, 4.5)] {
                 let frequency = number(&the(point, name, true)["frequency_hz"]);
                 // no swap: the frequencies of other modes are elsewhere, or cross it in the damping
                 assert!((low..high).contains(&frequency), "{more:?}: {name} at {}: {frequency} Hz", point["given"]);
@@ -143,6 +145,19 @@ fn figures_are_written_as_svg_and_png() {
     for word in ["weave", "wobble", "capsize", "unstable", "damping ratio", "speed 10 m/s"] {
         assert!(locus.contains(word), "`{word}` is missing");
     }
+    for (name, more, words) in [
+        ("shapes.svg", &["--speed", "30", "--shapes"][..], &["wobble, 7.95 Hz", "steer angle", "chassis roll", "leads"][..]),
+        ("sensitivity.svg", &["--speed", "30", "--sensitivity", "weave"], &["weave, 2.89 Hz", "real part", "per 1 %"]),
+        ("versus.svg", &["--speed", "10..60:10", "--versus", "steering_damper.coefficient=3"], &["coefficient=3", "ref11", "wobble"]),
+    ] {
+        let path = folder.join(name);
+        let answer = fastbike(&[&["modes", "ref11"][..], more, &["--plot", &path.display().to_string()]].concat());
+        assert_eq!(answer.status, 0, "{}", answer.stderr);
+        let figure = fs::read_to_string(&path).expect("the figure");
+        for word in words {
+            assert!(figure.contains(word), "`{word}` is missing in {name}");
+        }
+    }
     let alone = fastbike(&["modes", "ref11", "--speed", "30", "--figure", "frequencies", "--plot", "alone.svg"]);
     assert_eq!(alone.status, 2, "{}", alone.stderr);
 }
@@ -151,4 +166,71 @@ fn figures_are_written_as_svg_and_png() {
 fn braking_is_told_to_be_frozen() {
     let answer = fastbike(&["modes", "ref11", "--speed", "30", "--acceleration", "-3"]);
     assert!(answer.status == 0 && answer.stderr.contains("frozen time"), "{}", answer.stderr);
+}
+
+/// Frequency of the only oscillation with this name, as a complex eigenvalue.
+fn eigenvalue(report: &Value, name: &str) -> (f64, f64) {
+    let mode = the(&report["points"][0], name, true);
+    (number(&mode["re"]), number(&mode["im"]))
+}
+
+#[test]
+fn the_ten_parameters_that_move_a_mode_most_are_told() {
+    let report = json(&[&STRAIGHT[..], &["--sensitivity", "wobble", "--format", "json"]].concat(), 0);
+    let told = the(&report["points"][0], "wobble", true)["sensitivity"].as_array().expect("sensitivities").clone();
+    assert_eq!(told.len(), 10);
+    let share = |s: &Value| number(&s["value"]).abs() * number(&s["re"]).hypot(number(&s["im"]));
+    assert!(told.windows(2).all(|pair| share(&pair[0]) >= share(&pair[1])), "most first");
+    for entry in &told {
+        assert!(number(&entry["error"]) <= 1e-7 * number(&entry["re"]).hypot(number(&entry["im"])), "{entry}");
+    }
+    assert!(the(&report["points"][0], "weave", true).get("sensitivity").is_none());
+    // a change of a thousandth moves the eigenvalue by what the derivative says, to second order
+    let (first, path) = (&told[0], told[0]["parameter"].as_str().expect("a path"));
+    let step = 1e-3 * number(&first["value"]);
+    let at = |value: f64| {
+        eigenvalue(&json(&[&STRAIGHT[..], &["--set", &format!("{path}={value:?}"), "--format", "json"]].concat(), 0), "wobble")
+    };
+    let (up, down) = (at(number(&first["value"]) + step), at(number(&first["value"]) - step));
+    let (re, im) = ((up.0 - down.0) / (2.0 * step), (up.1 - down.1) / (2.0 * step));
+    let off = (re - number(&first["re"])).hypot(im - number(&first["im"]));
+    assert!(off < 1e-4 * re.hypot(im), "{re} {im} instead of {first}");
+    let table = fastbike(&[&STRAIGHT[..], &["--sensitivity"]].concat()).stdout;
+    for name in ["weave", "wobble", "bounce", "pitch"] {
+        assert!(table.contains(&format!("sensitivity of {name},")), "{name}");
+    }
+}
+
+#[test]
+fn single_parameters_are_told_on_request() {
+    let paths = ["steering_damper.coefficient", "link.chassis.com.y"];
+    let arguments = [&STRAIGHT[..], &["--sensitivity-of", paths[0], "--sensitivity-of", paths[1], "--format", "json"]].concat();
+    let report = json(&arguments, 0);
+    let told = the(&report["points"][0], "wobble", true)["sensitivity"].as_array().expect("sensitivities").clone();
+    assert_eq!(told.iter().filter_map(|s| s["parameter"].as_str()).collect::<Vec<_>>(), paths);
+    // a steering damper damps the wobble
+    assert!(number(&told[0]["re"]) < -0.1);
+    // the mirror image has the same eigenvalues
+    assert!(number(&told[1]["re"]).abs() < 1e-6, "{}", told[1]);
+    for (option, name, near) in [("--sensitivity", "wobbel", "`wobble`"), ("--sensitivity-of", "steering_damper.coeficient", paths[0])] {
+        let answer = fastbike(&[&STRAIGHT[..], &[option, name]].concat());
+        assert!(answer.status == 2 && answer.stderr.contains(near), "{}", answer.stderr);
+    }
+}
+
+#[test]
+fn variants_stand_beside_the_base() {
+    let damper = "steering_damper.coefficient=3";
+    let report = json(&[&STRAIGHT[..], &["--versus", damper, "--format", "json"]].concat(), 0);
+    let variant = &report["versus"][0];
+    assert_eq!(variant["variant"].as_str(), Some(damper));
+    let alone = json(&[&STRAIGHT[..], &["--set", damper, "--format", "json"]].concat(), 0);
+    assert_eq!(eigenvalue(variant, "wobble"), eigenvalue(&alone, "wobble"));
+    let csv = fastbike(&[&STRAIGHT[..], &["--versus", damper, "--format", "csv"]].concat()).stdout;
+    assert!(csv.starts_with("variant,given.speed,"), "{csv}");
+    assert_eq!(csv.lines().filter(|l| l.starts_with(damper)).count(), 13);
+    let table = fastbike(&[&STRAIGHT[..], &["--versus", damper]].concat()).stdout;
+    let line = table.lines().rev().find(|l| l.starts_with("wobble")).expect("a line of the wobble");
+    let cells: Vec<f64> = line.split_whitespace().skip(1).filter_map(|c| c.parse().ok()).collect();
+    assert!((cells[1] - cells[0] - cells[2]).abs() < 1e-4 && cells[2] < -1.0, "{line}");
 }

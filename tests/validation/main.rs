@@ -5,6 +5,7 @@
 mod bicycle;
 mod chain;
 mod gsxr1000;
+mod gsxr1000_acceleration;
 mod gsxr1000_cornering;
 mod gsxr1000_linkage;
 mod mechanisms;
@@ -22,7 +23,13 @@ fn the_table_of_evidence_is_up_to_date() {
     let rows: Vec<_> = vehicles
         .iter()
         .chain(bicycle::EVIDENCE)
-        .chain([&mechanisms::EVIDENCE, &motions::EVIDENCE, &rolling_disc::EVIDENCE, &gsxr1000_linkage::EVIDENCE])
+        .chain([
+            &mechanisms::EVIDENCE,
+            &motions::EVIDENCE,
+            &rolling_disc::EVIDENCE,
+            &gsxr1000_linkage::EVIDENCE,
+            &gsxr1000_acceleration::EVIDENCE,
+        ])
         .copied()
         .collect();
     evidence::hold("validation", &rows);

@@ -22,7 +22,8 @@ pub const EVIDENCE: &[Row] = validation::evidence![
 ];
 
 const MOTO11: &[&str] = &["link.chassis.mass", "joint.steer.origin.x", "steering_damper.coefficient", "front_tire.cornering_stiffness"];
-const REF11: &[&str] = &["link.chassis.com.z", "joint.steer.rpy.p", "rear_suspension.spring.stiffness", "rear_tire.carcass.lateral.stiffness"];
+const REF11: &[&str] =
+    &["link.chassis.com.z", "joint.steer.rpy.p", "rear_suspension.spring.stiffness", "rear_tire.carcass.lateral.stiffness"];
 
 /// Eigenvalues of a model with one entry changed, in the order of known ones; then all signals.
 fn anew(name: &str, path: &str, value: f64, request: &Request, known: &[Complex<f64>]) -> (Vec<Complex<f64>>, Vec<f64>) {

@@ -89,5 +89,11 @@ fn figure(report: &Report, show: &str) -> Result<Figure, Failure> {
     let axis = |k: usize| Axis::new(given[k].name.replace('_', " "), shown(&given[k].unit).unit);
     let title = format!("{} of {} in steady turns", show, report.model);
     let value = Axis::new(show, value_shown.unit);
-    Ok(Figure::Contour(Contour::new(title, (axis(*across), scaled(columns, *across)), (axis(*up), scaled(rows, *up)), value, nodes)?))
+    let limits = report.limits.iter().filter_map(|p| {
+        let row = rows.iter().position(|r| *r == p.given[*up])?;
+        Some((row, p.given[*across] * shown(&given[*across].unit).factor, p.value(signal) * value_shown.factor))
+    });
+    let limits = limits.collect();
+    let map = Contour::new(title, (axis(*across), scaled(columns, *across)), (axis(*up), scaled(rows, *up)), value, nodes)?;
+    Ok(Figure::Contour(map.with_limits(limits)))
 }

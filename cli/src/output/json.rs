@@ -35,6 +35,9 @@ pub(super) fn object(report: &Report) -> Value {
         Beside::Linear(linear) => linear::add_json(linear, &mut object),
         Beside::Modes(modes) => modes::add_json(modes, &report.given, &mut object),
     }
+    if !report.limits.is_empty() {
+        object["limits"] = report.limits.iter().map(|p| point(report, p)).collect::<Vec<_>>().into();
+    }
     if !report.variants.is_empty() {
         let points = |v: &super::Variant| v.points.iter().map(|p| point(report, p)).collect::<Vec<_>>();
         let variants = report.variants.iter().map(|v| {

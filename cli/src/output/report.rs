@@ -86,6 +86,8 @@ pub struct Report {
     pub shown: Vec<usize>,
     /// The points in the order of the sweep.
     pub points: Vec<Point>,
+    /// Last points before a limit, between the points of a grid.
+    pub limits: Vec<Point>,
     /// The same analysis for variants.
     pub variants: Vec<Variant>,
     /// What the analysis found beside the signals.
@@ -105,6 +107,7 @@ impl Report {
             signals,
             shown: Vec::new(),
             points: Vec::new(),
+            limits: Vec::new(),
             variants: Vec::new(),
             beside: Beside::Nothing,
             warnings: Vec::new(),
@@ -123,7 +126,7 @@ impl Results for Report {
         if axes == self.axes {
             return self;
         }
-        for point in self.points.iter_mut().chain(self.variants.iter_mut().flat_map(|v| &mut v.points)) {
+        for point in self.points.iter_mut().chain(&mut self.limits).chain(self.variants.iter_mut().flat_map(|v| &mut v.points)) {
             let given = self.given.iter().map(|g| g.name.as_str());
             let signals = self.signals.iter().map(|s| s.name.as_str());
             point.given.iter_mut().zip(given).chain(point.values.iter_mut().zip(signals)).for_each(|(v, name)| *v = turned(*v, name));

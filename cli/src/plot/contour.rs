@@ -3,7 +3,7 @@
 use super::axis::{self, Axis};
 use super::canvas::{Anchor, CAP_HEIGHT, Canvas, Ground, Lettering, Pen, Point, Rect, Setting};
 use super::contour_label::{self, Labeled};
-use super::field::{Edges, Field};
+use super::field::{Edges, End, Field};
 use super::legend::{Key, Legend};
 use super::lines::{Band, Curve, LinePanel, Lines, draw_title, top_of};
 use super::panel::{Panel, ROOM_BELOW, Side};
@@ -29,6 +29,7 @@ pub struct Contour {
     columns: Vec<f64>,
     rows: Vec<f64>,
     nodes: Vec<Node>,
+    limits: Vec<(usize, f64, f64)>,
 }
 
 impl Contour {
@@ -56,7 +57,13 @@ impl Contour {
         if x.1.is_empty() || y.1.is_empty() || x.1.len() * y.1.len() != nodes.len() {
             return Err(PlotError::Shape { columns: x.1.len(), rows: y.1.len(), given: nodes.len() });
         }
-        Ok(Self { title: title.into(), x: x.0, y: y.0, value, columns: x.1, rows: y.1, nodes })
+        Ok(Self { title: title.into(), x: x.0, y: y.0, value, columns: x.1, rows: y.1, nodes, limits: Vec::new() })
+    }
+
+    /// The same map with the places between nodes at which values of a row end: index of the row, place along x, value there.
+    #[must_use]
+    pub fn with_limits(self, limits: Vec<(usize, f64, f64)>) -> Self {
+        Self { limits, ..self }
     }
 
     /// The figure as SVG.
@@ -79,7 +86,8 @@ impl Contour {
         let columns: Vec<f64> = self.columns.iter().map(|&v| panel.x(v)).collect();
         let rows: Vec<f64> = self.rows.iter().map(|&v| panel.y(v)).collect();
         let values: Vec<f64> = self.nodes.iter().map(Node::value).collect();
-        let field = Field::new(&columns, &rows, &values);
+        let ends: Vec<End> = self.limits.iter().map(|&(row, x, value)| End { row, x: panel.x(x), value }).collect();
+        let field = Field::new(&columns, &rows, &values, &ends);
         let levels = Levels::choose(&values);
 
         let mut canvas = Canvas::new(lettering);

@@ -3,6 +3,9 @@
 //! Each cell with four values is cut into four triangles about its center (mean of the corners), each cell with three values is one triangle;
 //! the quantity is linear on a triangle. A region is the union of the clipped triangles, found by letting edges that are walked in both
 //! directions cancel. No case table, no saddle ambiguity, and a missing value is simply an absent triangle.
+//!
+//! Where it is known at which place between two nodes of a row the values end, rows are joined up to these ends by triangles between their
+//! points, in the order of their places.
 
 use super::canvas::Point;
 use std::collections::BTreeMap;
@@ -17,15 +20,39 @@ pub(super) struct Field {
     pub(super) lone: Vec<usize>,
 }
 
+/// Where the values of a row end between two nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct End {
+    pub(super) row: usize,
+    pub(super) x: f64,
+    pub(super) value: f64,
+}
+
 impl Field {
-    /// The field over the grid of `columns` × `rows`, values row by row, NaN where there is none.
-    pub(super) fn new(columns: &[f64], rows: &[f64], values: &[f64]) -> Self {
+    /// The field over the grid of `columns` × `rows`, values row by row, NaN where there is none; `ends` of rows where they are known.
+    pub(super) fn new(columns: &[f64], rows: &[f64], values: &[f64], ends: &[End]) -> Self {
         let mut points: Vec<Point> = rows.iter().flat_map(|&y| columns.iter().map(move |&x| (x, y))).collect();
         let mut values = values.to_vec();
         let mut triangles = Vec::new();
         let n = columns.len();
         let mut used = vec![false; values.len()];
-        for (i, j) in (1..rows.len()).flat_map(|j| (1..n).map(move |i| (i, j))) {
+        let known = values.clone();
+        let mut runs = Vec::with_capacity(rows.len());
+        for (j, &y) in rows.iter().enumerate() {
+            let of_row: Vec<End> = ends.iter().copied().filter(|e| e.row == j).collect();
+            runs.push(run(&known[j * n..(j + 1) * n], columns, &of_row).map(|run| run.place(j * n, y, &mut points, &mut values)));
+        }
+        let rising = columns.len() > 1 && columns[1] > columns[0];
+        let mut joined = vec![false; rows.len()];
+        for j in 1..rows.len() {
+            if let (Some(below), Some(above)) = (&runs[j - 1], &runs[j]) {
+                join(below, above, rising, (&mut points, &mut values), &mut triangles);
+                joined[j] = true;
+                below.iter().chain(above).filter(|&&k| k < used.len()).for_each(|&k| used[k] = true);
+            }
+        }
+        let apart = (1..rows.len()).filter(|j| !joined[*j]).collect::<Vec<_>>();
+        for (i, j) in apart.into_iter().flat_map(|j| (1..n).map(move |i| (i, j))) {
             let corners = [(j - 1) * n + i - 1, (j - 1) * n + i, j * n + i, j * n + i - 1];
             let known: Vec<usize> = corners.into_iter().filter(|&c| values[c].is_finite()).collect();
             match known[..] {
@@ -100,6 +127,79 @@ impl Field {
         let t = (level - self.values[a]) / (self.values[b] - self.values[a]);
         let (p, q) = (self.points[a], self.points[b]);
         (p.0 + t * (q.0 - p.0), p.1 + t * (q.1 - p.1))
+    }
+}
+
+/// Nodes of a row with values, from the first to the last, and the ends beyond them.
+struct Run {
+    nodes: std::ops::Range<usize>,
+    before: Option<End>,
+    after: Option<End>,
+}
+
+/// The values of a row as one run whose ends are known; none where they have gaps, or end somewhere between nodes. A row without any known end
+/// in a grid is no run: nothing says how its values end.
+fn run(values: &[f64], columns: &[f64], ends: &[End]) -> Option<Run> {
+    let first = values.iter().position(|v| v.is_finite())?;
+    let last = values.iter().rposition(|v| v.is_finite())?;
+    let whole = values[first..=last].iter().all(|v| v.is_finite());
+    let between = |a: usize, b: usize| {
+        let (low, high) = (columns[a].min(columns[b]), columns[a].max(columns[b]));
+        ends.iter().copied().find(|e| e.x >= low && e.x <= high)
+    };
+    let before = if first > 0 { Some(between(first - 1, first)?) } else { None };
+    let after = if last + 1 < values.len() { Some(between(last, last + 1)?) } else { None };
+    whole.then_some(Run { nodes: first..last + 1, before, after })
+}
+
+impl Run {
+    /// Indices of its points in order; ends that are no nodes become new points.
+    fn place(self, offset: usize, y: f64, points: &mut Vec<Point>, values: &mut Vec<f64>) -> Vec<usize> {
+        let (first, last) = (offset + self.nodes.start, offset + self.nodes.end - 1);
+        let mut order: Vec<usize> = (first..=last).collect();
+        let mut end = |end: Option<End>, node: usize| {
+            let end = end.filter(|e| (e.x - points[node].0).abs() > 1e-9)?;
+            points.push((end.x, y));
+            values.push(end.value);
+            Some(points.len() - 1)
+        };
+        if let Some(before) = end(self.before, first) {
+            order.insert(0, before);
+        }
+        order.extend(end(self.after, last));
+        order
+    }
+}
+
+/// Triangles between two rows of points, from their beginnings to their ends.
+fn join(
+    below: &[usize],
+    above: &[usize],
+    rising: bool,
+    (points, values): (&mut Vec<Point>, &mut Vec<f64>),
+    triangles: &mut Vec<[usize; 3]>,
+) {
+    let (mut i, mut k) = (0, 0);
+    while i + 1 < below.len() || k + 1 < above.len() {
+        let (a, d) = (below[i], above[k]);
+        match (below.get(i + 1).copied(), above.get(k + 1).copied()) {
+            (Some(b), Some(c)) if points[a].0 == points[d].0 && points[b].0 == points[c].0 => {
+                let center = points.len();
+                points.push(((points[a].0 + points[c].0) / 2.0, (points[a].1 + points[c].1) / 2.0));
+                values.push([a, b, c, d].iter().map(|&k| values[k] / 4.0).sum());
+                triangles.extend([[a, b, center], [b, c, center], [c, d, center], [d, a, center]]);
+                (i, k) = (i + 1, k + 1);
+            }
+            (Some(b), c) if c.is_none_or(|c| (points[b].0 < points[c].0) == rising) => {
+                triangles.push([a, b, d]);
+                i += 1;
+            }
+            (_, Some(c)) => {
+                triangles.push([a, c, d]);
+                k += 1;
+            }
+            _ => break,
+        }
     }
 }
 
@@ -189,7 +289,7 @@ mod tests {
     fn sampled(n: usize, f: impl Fn(f64, f64) -> f64) -> Field {
         let nodes: Vec<f64> = (0..n).map(|k| 2.0 * k as f64 / (n - 1) as f64 - 1.0).collect();
         let values: Vec<f64> = nodes.iter().flat_map(|&y| nodes.iter().map(|&x| f(x, y)).collect::<Vec<_>>()).collect();
-        Field::new(&nodes, &nodes, &values)
+        Field::new(&nodes, &nodes, &values, &[])
     }
 
     #[test]
@@ -228,8 +328,26 @@ mod tests {
 
     #[test]
     fn missing_values_leave_holes_and_lone_nodes() {
-        let field = Field::new(&[0.0, 1.0, 2.0], &[0.0, 1.0], &[1.0, 1.0, f64::NAN, 1.0, f64::NAN, 1.0]);
+        let field = Field::new(&[0.0, 1.0, 2.0], &[0.0, 1.0], &[1.0, 1.0, f64::NAN, 1.0, f64::NAN, 1.0], &[]);
         assert_eq!(area(&field.region(f64::NEG_INFINITY)), 0.5);
         assert_eq!(field.lone, [5]);
+    }
+
+    #[test]
+    fn known_ends_make_a_straight_boundary() {
+        // a plane over the triangle x + y < 4, of which the grid alone sees stairs
+        let nodes = [0.0, 1.0, 2.0, 3.0, 4.0];
+        let value = |x: f64, y: f64| if x + y <= 3.3 { x + 2.0 * y } else { f64::NAN };
+        let values: Vec<f64> = nodes.iter().flat_map(|&y| nodes.map(|x| value(x, y))).collect();
+        let ends: Vec<End> = (0..4).map(|row| End { row, x: 3.3 - row as f64, value: 3.3 + row as f64 }).collect();
+        for (columns, sign) in [(nodes, 1.0), (nodes.map(|x| -x), -1.0)] {
+            let ends: Vec<End> = ends.iter().map(|e| End { x: sign * e.x, ..*e }).collect();
+            let field = Field::new(&columns, &nodes, &values, &ends);
+            let whole = field.region(f64::NEG_INFINITY);
+            assert_eq!(whole.len(), 1);
+            // trapezoids between rows 0 to 3
+            assert!((area(&whole) - (3.3 + 2.3 + 1.3 + 0.3 - 0.5 * (3.3 + 0.3))).abs() < 1e-12, "{}", area(&whole));
+            assert!((area(&field.region(2.0)) + 1.0 - area(&whole)).abs() < 1e-12, "{}", area(&field.region(2.0)));
+        }
     }
 }

@@ -8,7 +8,7 @@
 //! Source: G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins 2013, 7.2.2 (sensitivity), 7.5 (QR, balancing);
 //! QR iteration and back-substitution by `faer`.
 
-use crate::LinearModel;
+use crate::{LinearModel, condition};
 use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
 use faer::{Mat, MatRef, Par, diag::Diag, dyn_stack::MemBuffer, dyn_stack::MemStack};
 use nalgebra::{Complex, DMatrix};
@@ -37,7 +37,7 @@ pub struct Spectrum {
     pub left: DMatrix<Complex<f64>>,
     /// Condition `‖y‖ ‖x‖ / |yᴴ x|` of every eigenvalue in balanced states: how much it moves with the entries of M.
     pub sensitivity: Vec<f64>,
-    /// Condition of E in nominal states, rows scaled to one.
+    /// Condition of E in nominal states, rows scaled to one, as QR with column pivoting estimates it.
     pub condition: f64,
     /// Largest residual `‖A v − s E v‖` and `‖Aᴴ w − s̄ Eᴴ w‖` over all vectors, relative to the size of the terms.
     pub residual: f64,
@@ -129,9 +129,7 @@ fn condition(E: &DMatrix<f64>, nominal: &[f64]) -> f64 {
         let largest = row.amax();
         row /= if largest > 0.0 { largest } else { 1.0 };
     }
-    let values = scaled.singular_values();
-    let (largest, smallest) = (values.iter().fold(0.0, |a: f64, b| a.max(*b)), values.iter().fold(f64::INFINITY, |a, b| a.min(*b)));
-    largest / smallest
+    condition::condition(&scaled)
 }
 
 /// `M ← T⁻¹ M T`.

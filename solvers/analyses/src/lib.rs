@@ -6,6 +6,7 @@
 
 #![allow(non_snake_case)]
 
+mod condition;
 pub mod eigen;
 pub mod expression;
 pub mod linearize;

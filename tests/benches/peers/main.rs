@@ -7,6 +7,7 @@
 
 mod clock;
 mod kernels;
+mod modes;
 mod motion;
 mod peer;
 mod plants;
@@ -19,6 +20,7 @@ fn main() {
     kernels::run(&mut clock);
     plants::run(&mut clock);
     sweep::run(&mut clock);
+    modes::run(&mut clock);
     motion::run(&mut clock);
     peer::print(&clock.finish());
 }

@@ -5,6 +5,7 @@
 
 use super::layout::Layout;
 use super::{LinearizeError, ROUNDING};
+use crate::condition::condition;
 use nalgebra::DMatrix;
 use problem::{At, EvalError, Matrix, Plant, Seeds, UnknownKind};
 use std::ops::Range;
@@ -200,6 +201,12 @@ pub(super) fn solve(block: &DMatrix<f64>, right: &DMatrix<f64>, column_scale: &[
             other /= largest;
         }
     }
+    // far from singular, singular values have nothing to add
+    if condition(&block) < 1e9 {
+        right = block.lu().solve(&right).ok_or_else(Vec::new)?;
+        scale_rows(&mut right, column_scale);
+        return Ok(right);
+    }
     // 1e-13: what rounding leaves of a singular matrix of some tens of rows
     let svd = block.clone().svd(false, true);
     let largest = svd.singular_values.iter().fold(0.0, |a: f64, b| a.max(*b));
@@ -207,12 +214,16 @@ pub(super) fn solve(block: &DMatrix<f64>, right: &DMatrix<f64>, column_scale: &[
     let determined = smallest.is_none_or(|k| svd.singular_values[k] > 1e-13 * largest);
     match block.lu().solve(&right).filter(|_| determined) {
         Some(mut solution) => {
-            for (mut row, scale) in solution.row_iter_mut().zip(column_scale) {
-                row *= *scale;
-            }
+            scale_rows(&mut solution, column_scale);
             Ok(solution)
         }
         None => Err(shares(svd.v_t.as_ref().zip(smallest).map(|(v, k)| v.row(k).iter().copied().collect()).unwrap_or_default())),
+    }
+}
+
+fn scale_rows(solution: &mut DMatrix<f64>, scale: &[f64]) {
+    for (mut row, scale) in solution.row_iter_mut().zip(scale) {
+        row *= *scale;
     }
 }
 

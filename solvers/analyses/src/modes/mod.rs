@@ -150,7 +150,10 @@ fn shape(model: &LinearModel, spectrum: &Spectrum, slot: usize) -> Vec<Complex<f
         own - Complex::new(model.cyclic.by_cyclic[(i, j)], 0.0)
     });
     // a mode at zero frequency drifts away: it has no shape there
-    let cyclic = integrator.lu().solve(&rates).filter(|c| c.iter().all(|e| e.re.is_finite() && e.im.is_finite()));
+    let cyclic = Some(integrator)
+        .filter(|i| !i.is_empty())
+        .and_then(|i| i.lu().solve(&rates))
+        .filter(|c| c.iter().all(|e| e.re.is_finite() && e.im.is_finite()));
     for (k, &unknown) in model.cyclic.unknowns.iter().enumerate() {
         shape[unknown] = cyclic.as_ref().map_or(Complex::new(0.0, 0.0), |c| c[k]);
     }
