@@ -86,3 +86,25 @@ fn whole_models_made_anew_move_as_predicted() {
     }
     agreement.assert();
 }
+
+/// What a user overrides by the path of a parameter is this parameter and no other.
+#[test]
+fn paths_of_parameters_are_those_of_overrides() {
+    for name in ["moto11", "ref11", "gsxr1000", "whipple", "gsxr1000_linkage"] {
+        let (source, kinds) = (Source::find(name).expect("a bundled model"), standard_kinds());
+        let read = |overrides: &[(String, String)]| {
+            let (blueprint, findings) = Blueprint::read(&source.file, &source, &kinds, overrides);
+            blueprint.unwrap_or_else(|| panic!("{name}: {findings}"))
+        };
+        let before = read(&[]);
+        assert!(before.entries().len() > 30, "{name} has {} parameters", before.entries().len());
+        // every fourth will do: names of all sections and of both files are among them
+        for (k, entry) in before.entries().iter().enumerate().step_by(4) {
+            let value = if entry.value == 0.0 { 1e-6 } else { 1.001 * entry.value };
+            let after = read(&[(entry.path.clone(), format!("{value:?}"))]);
+            for (i, (old, new)) in before.entries().iter().zip(after.entries()).enumerate() {
+                assert_eq!(new.value, if i == k { value } else { old.value }, "{name}: {} by {}", old.path, entry.path);
+            }
+        }
+    }
+}

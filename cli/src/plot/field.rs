@@ -48,7 +48,7 @@ impl Field {
             if let (Some(below), Some(above)) = (&runs[j - 1], &runs[j]) {
                 join(below, above, rising, (&mut points, &mut values), &mut triangles);
                 joined[j] = true;
-                below.iter().chain(above).filter(|&&k| k < used.len()).for_each(|&k| used[k] = true);
+                below.iter().chain(above).for_each(|&k| used.get_mut(k).into_iter().for_each(|u| *u = true));
             }
         }
         let apart = (1..rows.len()).filter(|j| !joined[*j]).collect::<Vec<_>>();

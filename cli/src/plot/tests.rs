@@ -79,6 +79,11 @@ fn samples() -> Vec<(&'static str, Figure)> {
                 }
             }),
         ),
+        ("contour_known_limits", known_limits()),
+        ("phasors", phasors(5)),
+        ("phasors_crowded", phasors(14)),
+        ("bars", bars()),
+        ("lines_variants", variants()),
         ("lines_stacked", stacked()),
         ("lines_crowded", crowded()),
         ("lines_frequency", frequency()),
@@ -93,6 +98,57 @@ fn samples() -> Vec<(&'static str, Figure)> {
             }),
         ),
     ]
+}
+
+/// Rows that end between the nodes, on the ellipse of the tire.
+fn known_limits() -> Figure {
+    let (a, v) = (grid(-10.0, 10.0, 11), grid(10.0, 60.0, 9));
+    let node = |a: f64, v: f64| if a * a / 100.0 + v * v / 6000.0 > 1.0 { infeasible("tire_saturated") } else { Node::Value(a * v) };
+    let nodes = v.iter().flat_map(|&v| a.iter().map(|&a| node(a, v)).collect::<Vec<_>>()).collect();
+    let end = |v: f64| 10.0 * (1.0 - v * v / 6000.0).sqrt();
+    let limits = v.iter().enumerate().flat_map(|(row, &v)| [-1.0, 1.0].map(|side| (row, side * end(v), side * end(v) * v))).collect();
+    let (x, y) = ((Axis::new("Lateral acceleration", "m/s^2"), a), (Axis::new("Speed", "m/s"), v.clone()));
+    Figure::Contour(Contour::new("", x, y, Axis::new("Value", "N m"), nodes).expect("consistent grid").with_limits(limits))
+}
+
+/// Three modes of so many signals, many of them in the same direction.
+fn phasors(count: usize) -> Figure {
+    let arrow = |k: usize, mode: f64| {
+        let (angle, size) = (0.3 * (k as f64) * mode, 1.0 / (1.0 + 0.4 * k as f64));
+        Phasor { name: format!("signal number {k}"), value: (size * angle.cos(), size * angle.sin()) }
+    };
+    let panel = |mode: f64| PhasorPanel {
+        title: format!("mode {mode}, 2.89 Hz, damping ratio 0.194"),
+        arrows: (0..count).map(|k| arrow(k, mode)).collect(),
+    };
+    Figure::Phasors(Phasors { title: "Shapes of the modes of ref11, speed 30 m/s".to_owned(), panels: [0.1, 1.0, 7.0].map(panel).to_vec() })
+}
+
+fn bars() -> Figure {
+    let row = |k: usize| (format!("element.part.parameter_{k}"), vec![(k as f64).sin() / (1.0 + k as f64), 0.3 * (2.0 * k as f64).cos()]);
+    let panel = |title: &str| BarPanel { title: title.to_owned(), rows: (0..10).map(row).collect() };
+    Figure::Bars(Bars {
+        title: "Sensitivity of the modes of ref11, speed 30 m/s".to_owned(),
+        x: Axis::new("Change of the eigenvalue per 1 % of the parameter", "1/s"),
+        series: ["real part (1/s)", "imaginary part (rad/s)"].map(str::to_owned).to_vec(),
+        panels: vec![panel("wobble, 7.95 Hz, damping ratio 0.083"), panel("weave, 2.89 Hz, damping ratio 0.194")],
+    })
+}
+
+fn variants() -> Figure {
+    let speeds = grid(10.0, 60.0, 26);
+    let curve = |name: &str, variant: usize| {
+        let points = speeds.iter().map(|&v| (v, v * (1.0 + 0.2 * variant as f64) / if name == "weave" { 10.0 } else { 7.0 })).collect();
+        Curve { name: name.to_owned(), points, markers: Markers::Never, variant }
+    };
+    let curves = [("weave", 0), ("wobble", 0), ("weave", 1), ("wobble", 1)].map(|(name, variant)| curve(name, variant)).to_vec();
+    Figure::Lines(Lines {
+        title: "Modes of ref11".to_owned(),
+        x: Axis::new("Speed", "m/s"),
+        panels: vec![LinePanel { y: Axis::new("Damped frequency", "Hz"), curves }],
+        bands: vec![],
+        variants: vec!["ref11".to_owned(), "steering_damper.coefficient=3".to_owned()],
+    })
 }
 
 fn stacked() -> Figure {

@@ -72,24 +72,31 @@ fn crossing_oscillators_keep_their_identity() {
     }
 }
 
+/// One point of the sweep where the shapes are mixed is enough: points between are asked for until every step is clear.
 #[test]
 fn veering_oscillators_never_change_places() {
-    // half a step of the sweep is far wider than the place where they exchange their shapes
     let coupling = 0.6;
-    let ends = [two(0.0, coupling), two(2.0, coupling)];
-    let mut asked = 0;
-    let mut between = |t: f64| {
-        asked += 1;
-        Some(two(2.0 * t, coupling))
-    };
-    let way = link_finely(&ends[0], &ends[1], &mut between).expect("the same states");
-    assert!(asked > 2, "a coarse step cannot tell veering from crossing");
-    let fastest = |modes: &Modes| modes.spectrum.values.iter().map(|s| s.im).fold(0.0, f64::max);
-    let [start, end] = follow(&ends[0], &ends[1], &way, 0);
-    assert_eq!((start.im, end.im), (fastest(&ends[0]), fastest(&ends[1])));
-    // the shape has gone over from b to a on the way
-    let leads = |modes: &Modes| if modes.list[0].participation[0] > 0.5 { "a" } else { "b" };
-    assert_eq!((leads(&ends[0]), leads(&ends[1])), ("b", "a"));
+    for steps in [2, 8, 40] {
+        let at = |k: i32| 2.0 * f64::from(k) / f64::from(steps);
+        let points: Vec<Modes> = (0..=steps).map(|k| two(at(k), coupling)).collect();
+        let mut way = link(&points[0], &points[0]).expect("the same states");
+        let mut asked = 0;
+        for (k, pair) in (0..steps).zip(points.windows(2)) {
+            let mut between = |t: f64| {
+                asked += 1;
+                Some(two(at(k) + t * (at(k + 1) - at(k)), coupling))
+            };
+            way = way.then(&link_finely(&pair[0], &pair[1], &mut between).expect("the same states"));
+        }
+        assert!(asked > 0 || steps > 8, "coarse steps cannot tell veering from crossing");
+        let (first, last) = (&points[0], &points[points.len() - 1]);
+        let fastest = |modes: &Modes| modes.spectrum.values.iter().map(|s| s.im).fold(0.0, f64::max);
+        let [start, end] = follow(first, last, &way, 0);
+        assert_eq!((start.im, end.im), (fastest(first), fastest(last)), "{steps} steps");
+        // the shape has gone over from b to a on the way
+        let leads = |modes: &Modes| if modes.list[0].participation[0] > 0.5 { "a" } else { "b" };
+        assert_eq!((leads(first), leads(last)), ("b", "a"));
+    }
 }
 
 const RULES: &[ModeRule] = &[
