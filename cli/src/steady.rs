@@ -106,6 +106,31 @@ struct Line {
     limits: Vec<Point>,
 }
 
+/// What was found of turns to one side.
+#[derive(Default)]
+struct Side {
+    /// Turns within all limits.
+    inside: Vec<(f64, TrimPoint)>,
+    /// The smallest turn that is not.
+    beyond: Option<f64>,
+}
+
+impl Side {
+    fn saw(&mut self, turn: f64, found: &TrimPoint) {
+        match found.ending {
+            Ending::Reached => self.inside.push((turn, found.clone())),
+            _ => self.beyond = self.beyond.filter(|b| b.abs() <= turn.abs()).or(Some(turn)),
+        }
+    }
+
+    /// The largest turn within all limits before the smallest one that is not, and the latter.
+    fn bracket(&self) -> Option<(&TrimPoint, f64)> {
+        let beyond = self.beyond?;
+        let within = self.inside.iter().filter(|(turn, _)| turn.abs() < beyond.abs());
+        within.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|(_, last)| (last, beyond))
+    }
+}
+
 /// Halvings of a step of the grid in which a limit is found.
 const HALVINGS: usize = 7;
 
@@ -171,9 +196,7 @@ impl Job<'_> {
         let anchor = (straight, x);
         let mut last = [anchor.clone(), anchor.clone()];
         let mut ended: [Option<(f64, Ending)>; 2] = [None, None];
-        // the last state within all limits to either side, and whether the one beyond is known
-        let mut inside: [Option<TrimPoint>; 2] = [None, None];
-        let mut bounded = [self.request.swept() != 2; 2];
+        let mut sides = [Side::default(), Side::default()];
         let mut line = Line::default();
         for goal in goals {
             let turn = self.turn(*goal);
@@ -198,18 +221,14 @@ impl Job<'_> {
                 true => last[side] = (target, found.x.clone()),
                 false => ended[side] = Some((turn, found.ending.clone())),
             }
-            match (found.ending == Ending::Reached, bounded[side], &inside[side]) {
-                (true, ..) => inside[side] = Some(found.clone()),
-                (false, false, Some(last)) => {
-                    bounded[side] = true;
-                    let limit = limit(&walk, &mut problem, method.as_mut(), last, turn)?;
-                    let at = limit.goals[1].1;
-                    let at = if self.request.turn.as_ref().is_some_and(|t| t.0 == Turn::Radius) { 1.0 / at } else { at };
-                    line.limits.push(to_point(vec![speed, at], limit));
-                }
-                _ => {}
-            }
+            sides[side].saw(turn, &found);
             line.points.push(to_point(given, found));
+        }
+        for (last, beyond) in sides.iter().filter_map(Side::bracket).filter(|_| self.request.swept() == 2) {
+            let found = limit(&walk, &mut problem, method.as_mut(), last, beyond)?;
+            let at = found.goals[1].1;
+            let radius = self.request.turn.as_ref().is_some_and(|t| t.0 == Turn::Radius);
+            line.limits.push(to_point(vec![speed, if radius { 1.0 / at } else { at }], found));
         }
         Ok(Some(line))
     }

@@ -40,3 +40,21 @@ fn the_gear_counts_in_maps_too() {
     assert_eq!(answer.status, 2, "{}", answer.stdout);
     assert!(answer.stderr.contains("gear"), "{}", answer.stderr);
 }
+
+/// Between the last state within the limits and the next point of the grid, to a hundredth of the step, on both sides.
+#[test]
+fn limits_are_found_between_the_points() {
+    let map = json(&["map", "gsxr1000", "--speed", "20,30", "--lateral-acceleration", "-16..16:4", "--format", "json"], 0);
+    let limits = map["limits"].as_array().expect("limits");
+    assert_eq!(limits.len(), 4);
+    for limit in limits {
+        let (speed, turn) = (number(&limit["given"]["speed"]), number(&limit["given"]["lateral_acceleration"]));
+        assert_eq!(limit["ending"].as_str(), Some("reached"));
+        let beyond = format!("{}", turn + 0.04_f64.copysign(turn));
+        let trim = json(&["trim", "gsxr1000", "--speed", &speed.to_string(), "--lateral-acceleration", &beyond, "--format", "json"], 0);
+        assert_eq!(trim["points"][0]["ending"].as_str(), Some("tire_saturated"), "{speed} m/s, {beyond} m/s²");
+    }
+    // left and right are mirror images
+    let turn = |k: usize| number(&limits[k]["given"]["lateral_acceleration"]);
+    assert!((turn(0) + turn(1)).abs() < 1e-9 && (turn(2) + turn(3)).abs() < 1e-9);
+}
