@@ -37,7 +37,8 @@ fn wobble(modes: &ModesAlong, point: usize) -> &NamedMode {
 
 #[test]
 fn brakes_take_damping_from_the_wobble_and_power_adds_to_it() {
-    let [braking, steady, driving] = [-5.0, 0.0, 3.0].map(|a| modes(&accelerating(running(&SPEEDS), a)));
+    let [braking, steady, driving] =
+        [-5.0, 0.0, 3.0].map(|a| modes(&Request { front_brake_share: 0.7, ..accelerating(running(&SPEEDS), a) }));
     let mut agreement = Agreement::on("gsxr1000: wobble under brakes and power");
     for (k, speed) in SPEEDS.iter().enumerate() {
         let [b, s, d] = [&braking, &steady, &driving].map(|modes| wobble(modes, k));
