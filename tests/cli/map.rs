@@ -51,7 +51,7 @@ fn limits_are_found_between_the_points() {
         let (speed, turn) = (number(&limit["given"]["speed"]), number(&limit["given"]["lateral_acceleration"]));
         assert_eq!(limit["ending"].as_str(), Some("reached"));
         let beyond = format!("{}", turn + 0.04_f64.copysign(turn));
-        let trim = json(&["trim", "gsxr1000", "--speed", &speed.to_string(), "--lateral-acceleration", &beyond, "--format", "json"], 0);
+        let trim = json(&["trim", "gsxr1000", "--speed", &speed.to_string(), "--lateral-acceleration", &beyond, "--format", "json"], 1);
         assert_eq!(trim["points"][0]["ending"].as_str(), Some("tire_saturated"), "{speed} m/s, {beyond} m/s²");
     }
     // left and right are mirror images

@@ -36,13 +36,17 @@ fn anew(name: &str, path: &str, value: f64, request: &Request, known: &[Complex<
     (known.iter().map(nearest).collect(), state.point.values)
 }
 
-/// Central difference with steps h and h/2, extrapolated.
+/// Central differences with steps h, h/2 and h/4, extrapolated: eigenvalues that lie close together bend sharply.
 fn extrapolated<T: Copy>(at: &dyn Fn(f64) -> Vec<T>, h: f64) -> Vec<T>
 where
     T: std::ops::Sub<Output = T> + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
 {
     let central = |h: f64| -> Vec<T> { at(h).into_iter().zip(at(-h)).map(|(up, down)| (up - down) * (0.5 / h)).collect() };
-    central(h).into_iter().zip(central(0.5 * h)).map(|(a, b)| b + (b - a) * (1.0 / 3.0)).collect()
+    let finer = |coarse: Vec<T>, fine: Vec<T>, power: f64| -> Vec<T> {
+        coarse.into_iter().zip(fine).map(|(a, b)| b + (b - a) * (1.0 / (power - 1.0))).collect()
+    };
+    let [a, b, c] = [h, 0.5 * h, 0.25 * h].map(central);
+    finer(finer(a, b.clone(), 4.0), finer(b, c, 4.0), 16.0)
 }
 
 fn compare(agreement: &mut Agreement, name: &str, what: &str, request: &Request, paths: &[&str]) {
