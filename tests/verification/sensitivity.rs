@@ -37,9 +37,9 @@ fn anew(name: &str, path: &str, value: f64, request: &Request, known: &[Complex<
 }
 
 /// Central differences with steps h, h/2 and h/4, extrapolated: eigenvalues that lie close together bend sharply.
-fn extrapolated<T: Copy>(at: &dyn Fn(f64) -> Vec<T>, h: f64) -> Vec<T>
+fn extrapolated<T>(at: &dyn Fn(f64) -> Vec<T>, h: f64) -> Vec<T>
 where
-    T: std::ops::Sub<Output = T> + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
+    T: Copy + std::ops::Sub<Output = T> + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
 {
     let central = |h: f64| -> Vec<T> { at(h).into_iter().zip(at(-h)).map(|(up, down)| (up - down) * (0.5 / h)).collect() };
     let finer = |coarse: Vec<T>, fine: Vec<T>, power: f64| -> Vec<T> {

@@ -8,8 +8,13 @@ use super::{ModesAlong, NamedMode, PointModes, tagged};
 use std::io;
 
 /// What is compared: name, unit, value.
-const QUANTITIES: [(&str, &str, fn(&NamedMode) -> f64); 3] =
+type Quantity = (&'static str, &'static str, fn(&NamedMode) -> f64);
+
+const QUANTITIES: [Quantity; 3] =
     [("re", "1/s", |m| m.value.re), ("damped", "Hz", |m| m.damped_frequency()), ("damping ratio", "", |m| m.damping_ratio)];
+
+/// Name of a mode, the mode of the base, that of the variant.
+type Pair<'a> = (&'a str, Option<&'a NamedMode>, Option<&'a NamedMode>);
 
 /// For every variant and point a line per mode: base, variant and difference of each quantity. Sweeps show the oscillations only.
 pub(super) fn write(report: &Report, along: &ModesAlong, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
@@ -32,13 +37,8 @@ pub(super) fn write(report: &Report, along: &ModesAlong, options: &Options, out:
 }
 
 /// Modes of one name, in their order, side by side; what only one side has stands alone.
-fn pairs<'a>(
-    base: &'a PointModes,
-    other: &'a PointModes,
-    oscillations: bool,
-) -> Vec<(&'a str, Option<&'a NamedMode>, Option<&'a NamedMode>)> {
-    let mut pairs: Vec<(&str, Option<&NamedMode>, Option<&NamedMode>)> =
-        base.modes.iter().map(|mode| (mode.name.as_str(), Some(mode), None)).collect();
+fn pairs<'a>(base: &'a PointModes, other: &'a PointModes, oscillations: bool) -> Vec<Pair<'a>> {
+    let mut pairs: Vec<Pair<'_>> = base.modes.iter().map(|mode| (mode.name.as_str(), Some(mode), None)).collect();
     for mode in &other.modes {
         let oscillates = |m: &NamedMode| m.value.im > 0.0;
         let same = |b: &NamedMode| b.name == mode.name && oscillates(b) == oscillates(mode);
@@ -51,7 +51,7 @@ fn pairs<'a>(
     pairs
 }
 
-fn write_point(pairs: &[(&str, Option<&NamedMode>, Option<&NamedMode>)], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+fn write_point(pairs: &[Pair<'_>], options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let names = pairs.iter().map(|p| p.0.chars().count()).max().unwrap_or(0).max("mode".len());
     let mut columns: Vec<(String, Vec<String>)> = Vec::new();
     for (quantity, unit, of) in QUANTITIES {

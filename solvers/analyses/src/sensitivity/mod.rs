@@ -39,6 +39,9 @@ const ACCURATE: f64 = 1e-9;
 /// Eigenvalues closer than this, relative to the magnitude of the larger one, are not told apart.
 const ALONE: f64 = 1e-8;
 
+/// Factors of a square matrix.
+type Factors = LU<f64, Dyn, Dyn>;
+
 /// Why a sensitivity cannot be found.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SensitivityError {
@@ -98,7 +101,7 @@ pub struct Sensitivity<'f> {
     /// Solution of the trim, polished to rounding.
     x: Vec<f64>,
     /// ∂f/∂x there.
-    jacobian: LU<f64, Dyn, Dyn>,
+    jacobian: Factors,
     /// The linear model.
     pub model: LinearModel,
     /// Its eigenvalues and vectors.
@@ -271,11 +274,11 @@ fn linear_model(plant: &mut dyn Plant, (y, yd, u): (&[f64], &[f64], &[f64]), opt
 }
 
 /// Newton's method from a known solution until rounding ends it; returns the factors of the last Jacobian.
-fn polish(problem: &mut TrimProblem<'_>, x: &mut Vec<f64>) -> Result<LU<f64, Dyn, Dyn>, SensitivityError> {
+fn polish(problem: &mut TrimProblem<'_>, x: &mut Vec<f64>) -> Result<Factors, SensitivityError> {
     let n = x.len();
     let not_regular = |because: &str| SensitivityError::NotRegular { because: because.to_owned() };
     let (mut f, mut J) = (vec![0.0; n], Matrix::zeros(n, n));
-    let mut best: Option<(f64, Vec<f64>, LU<f64, Dyn, Dyn>)> = None;
+    let mut best: Option<(f64, Vec<f64>, Factors)> = None;
     for _ in 0..8 {
         problem.jacobian(x, &mut f, &mut J).map_err(|e| not_regular(&words(problem.plant(), e)))?;
         let off = f.iter().zip(problem.equation_scale()).map(|(f, s)| (f / s).abs()).fold(0.0, f64::max);
