@@ -212,6 +212,9 @@ fn single_parameters_are_told_on_request() {
     assert!(number(&told[0]["re"]) < -0.1);
     // the mirror image has the same eigenvalues
     assert!(number(&told[1]["re"]).abs() < 1e-6, "{}", told[1]);
+    // with one moment about a diameter of its own a wheel is not symmetric any more
+    let answer = fastbike(&[&STRAIGHT[..], &["--sensitivity-of", "link.front_wheel_rim.inertia.ixx"]].concat());
+    assert!(answer.status == 0 && answer.stderr.contains("not symmetric"), "{}", answer.stderr);
     for (option, name, near) in [("--sensitivity", "wobbel", "`wobble`"), ("--sensitivity-of", "steering_damper.coeficient", paths[0])] {
         let answer = fastbike(&[&STRAIGHT[..], &[option, name]].concat());
         assert!(answer.status == 2 && answer.stderr.contains(near), "{}", answer.stderr);

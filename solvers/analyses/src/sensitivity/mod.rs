@@ -24,7 +24,7 @@ use crate::trim::{Rows, Trim, TrimError, TrimProblem};
 use crate::{LinearModel, LinearizeError, Variable, linearize};
 use extrapolation::extrapolate;
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
-use problem::{AlgebraicProblem, At, EvalError, Family, Matrix, Member, NoMember, ParameterId, Plant};
+use problem::{AlgebraicProblem, At, EvalError, Family, Matrix, Member, NoMember, ParameterId, Plant, Unknown, UnknownKind};
 use thiserror::Error;
 
 /// Differences per derivative: steps from h down to h/8 leave an error of h⁸; where something bends more sharply, smaller ones follow.
@@ -35,6 +35,9 @@ const STEP: f64 = 1.0 / 128.0;
 
 /// Relative error at which smaller steps end: rounding would not let them do much better.
 const ACCURATE: f64 = 1e-9;
+
+/// Largest change of an eigenvalue, relative to it, by cyclic coordinates that do not matter.
+const SYMMETRIC: f64 = 1e-8;
 
 /// Eigenvalues closer than this, relative to the magnitude of the larger one, are not told apart.
 const ALONE: f64 = 1e-8;
@@ -146,15 +149,16 @@ impl<'f> Sensitivity<'f> {
     /// Derivatives by one parameter.
     ///
     /// # Errors
-    /// There is no model beside this one.
+    /// There is no model beside this one, or its modes change as cyclic coordinates grow.
     ///
     /// # Cost
-    /// Eight assemblies, residuals and linear models; up to eighteen where the error asks for it.
+    /// Nine assemblies, residuals and linear models; up to nineteen where the error asks for it.
     pub fn by(&self, parameter: ParameterId) -> Result<Derivatives, SensitivityError> {
         let about = &self.family.parameters()[parameter.0];
         // a power of two: the ends of the steps are p ± h to the last bit, or nearly so
         let largest = (about.nominal * STEP).log2().round().exp2();
         let mut slopes: Vec<Vec<Complex<f64>>> = Vec::new();
+        self.check_symmetry(parameter, about.value + largest)?;
         let modes = self.spectrum.values.len();
         for level in 0..LEVELS.1 {
             if level >= LEVELS.0 && (0..modes).all(|k| !self.alone[k] || self.accurate(k, estimate(&slopes, k), about.nominal)) {
@@ -178,6 +182,26 @@ impl<'f> Sensitivity<'f> {
         })
     }
 
+    /// Small motions must not begin to depend on a cyclic coordinate: a wheel with another moment about one of its diameters only has modes that
+    /// change as it turns.
+    fn check_symmetry(&self, parameter: ParameterId, value: f64) -> Result<(), SensitivityError> {
+        let fault = |because: String| self.fault(parameter, value, because);
+        let mut member = self.family.with(&[(parameter, value)]).map_err(|e| fault(e.because))?;
+        let mut at = |shift: f64| self.end(&mut member, &self.x, shift).map_err(fault);
+        let moved = self.eigenvalue_slopes(&at(1.0)?, &at(0.0)?, 1.0);
+        let same = |(by, s): (&Complex<f64>, &Complex<f64>)| by.norm() <= SYMMETRIC * s.norm().max(1.0);
+        let all = moved.iter().zip(&self.spectrum.values).zip(&self.alone).filter(|(_, alone)| **alone).all(|(pair, _)| same(pair));
+        match all {
+            true => Ok(()),
+            false => Err(fault("small motions depend on where cyclic coordinates stand, as with a wheel that is not symmetric".to_owned())),
+        }
+    }
+
+    fn fault(&self, parameter: ParameterId, value: f64, because: String) -> SensitivityError {
+        let about = &self.family.parameters()[parameter.0];
+        SensitivityError::Member { parameter: about.name.clone(), value, unit: about.unit.to_string(), because }
+    }
+
     /// Whether a derivative is good enough, by itself or beside the eigenvalue over the parameter.
     fn accurate(&self, slot: usize, found: Estimate<Complex<f64>>, nominal: f64) -> bool {
         found.error <= ACCURATE * found.value.norm() || found.error * nominal <= 1e-3 * ACCURATE * self.spectrum.values[slot].norm()
@@ -187,10 +211,7 @@ impl<'f> Sensitivity<'f> {
     fn slopes(&self, parameter: ParameterId, value: f64, step: f64) -> Result<Vec<Complex<f64>>, SensitivityError> {
         let values = [value + step, value - step];
         let width = values[0] - values[1];
-        let fault = |value: f64, because: String| {
-            let about = &self.family.parameters()[parameter.0];
-            SensitivityError::Member { parameter: about.name.clone(), value, unit: about.unit.to_string(), because }
-        };
+        let fault = |value: f64, because: String| self.fault(parameter, value, because);
         let member = |value: f64| self.family.with(&[(parameter, value)]).map_err(|e| fault(value, e.because));
         let mut members = [member(values[0])?, member(values[1])?];
         let mut residuals = [DVector::zeros(self.x.len()), DVector::zeros(self.x.len())];
@@ -205,19 +226,22 @@ impl<'f> Sensitivity<'f> {
         let mut ends = Vec::with_capacity(2);
         for (k, member) in members.iter_mut().enumerate() {
             let x: Vec<f64> = self.x.iter().zip(tangent.iter()).map(|(x, t)| x + t * (values[k] - value)).collect();
-            ends.push(self.end(member, &x).map_err(|because| fault(values[k], because))?);
+            ends.push(self.end(member, &x, 0.0).map_err(|because| fault(values[k], because))?);
         }
         let mut slopes = self.eigenvalue_slopes(&ends[0], &ends[1], width);
         slopes.extend(ends[0].signals.iter().zip(&ends[1].signals).map(|(a, b)| Complex::new((a - b) / width, 0.0)));
         Ok(slopes)
     }
 
-    /// Matrices and signals of a member at a point.
-    fn end(&self, member: &mut Member, x: &[f64]) -> Result<End, String> {
+    /// Matrices and signals of a member at a point, cyclic coordinates shifted.
+    fn end(&self, member: &mut Member, x: &[f64], shift: f64) -> Result<End, String> {
         let mut problem = TrimProblem::with_rows(member.steady.as_mut(), &self.trim, &self.rows).map_err(|e| e.to_string())?;
         let mut f = vec![0.0; x.len()];
         problem.residual(x, &mut f).map_err(|e| words(problem.plant(), e))?;
-        let (y, yd, u, z) = problem.point();
+        let cyclic = |u: &Unknown| u.cyclic && u.kind == UnknownKind::Position;
+        let shifted = problem.point().0.iter().zip(problem.plant().unknowns()).map(|(y, u)| if cyclic(u) { y + shift } else { *y });
+        let shifted: Vec<f64> = shifted.collect();
+        let (y, (_, yd, u, z)) = (&shifted[..], problem.point());
         let states: Vec<String> = self.model.states.iter().map(|s| s.signal.name.clone()).collect();
         let options =
             Options { independent: states.clone(), off_trim: OffTrim::Proceed, bound_inputs: BoundInputs::LeaveOut, ..Options::default() };
