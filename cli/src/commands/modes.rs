@@ -51,7 +51,7 @@ fn command(command: Command) -> Command {
          Along a sweep names are carried from point to point, and changes of stability are searched between the points.\n\n\
          Examples:\n  fastbike modes gsxr1000 --speed 30\n  fastbike modes gsxr1000 --speed 5..80:1 --plot locus.svg\n  \
          fastbike modes ref11 --speed 10..60:1 --lateral-acceleration -5 --figure frequencies --plot frequencies.svg\n  \
-         fastbike modes whipple --speed 1..10:0.25 --format csv",
+         fastbike modes whipple --speed 1..10:0.25 --format csv\n  fastbike modes gsxr1000 --speed 10..60:10 --animate modes.html",
     )
 }
 

@@ -60,7 +60,7 @@ fn command(command: Command) -> Command {
     Arguments::augment_args(command).about("Motion over time from the start values").after_help(
         "The motion starts from `start` of the description and the design pose, with constant inputs.\n\n\
          Examples:\n  fastbike run andrews_squeezer --duration 30ms\n  \
-         fastbike run whipple --given chassis.roll_rate=0.05 --plot run.svg\n  \
+         fastbike run whipple --given chassis.roll_rate=0.05 --plot run.svg --animate run.html\n  \
          fastbike run pendulum --backend erk --rtol 1e-9 --record system.energy --format csv",
     )
 }
