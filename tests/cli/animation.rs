@@ -147,6 +147,18 @@ fn mechanisms_are_shown_too() {
     }
 }
 
+/// A mechanism at rest has modes without anything cyclic; its only coordinate turns its only body.
+#[test]
+fn modes_of_a_mechanism_at_rest_are_shown() {
+    let (page, _) = page("animation_pendulum_modes", &["modes", "pendulum"]);
+    let data = data(&page);
+    let mode = &data["points"][0]["modes"][0];
+    let twists = numbers(&mode["twists"]);
+    let turn = twists[..3].iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!(number(&mode["im"]) > 0.0 && (turn - 1.0).abs() < 1e-6, "{twists:?}");
+    assert_eq!((data["points"][0]["label"].as_str(), &mode["path"][1][0]), (Some("static pose"), &Value::from(0.0)));
+}
+
 #[test]
 fn a_page_that_cannot_be_written_is_refused_before_the_run() {
     for (file, why) in
