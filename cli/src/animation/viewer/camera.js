@@ -54,7 +54,7 @@ class Camera {
   look(aspect) {
     const yaw = this.yaw + (this.turns ? this.heading : 0);
     const wide = Math.min(1, aspect);
-    const d = (this.distance * this.size * (this.travels ? 2 : 1.6)) / wide;
+    const d = (this.distance * this.size * 2) / wide;
     const eye = [d * Math.cos(this.pitch) * Math.cos(yaw), d * Math.cos(this.pitch) * Math.sin(yaw), d * Math.sin(this.pitch)];
     const up = this.pitch > 1.5 ? [-Math.cos(yaw), -Math.sin(yaw), 0] : [0, 0, 1];
     this.axes = looking(eye, [0, 0, 0], up);
