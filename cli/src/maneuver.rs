@@ -36,7 +36,8 @@ pub fn read(name: &str, changes: &[String]) -> Result<Maneuver, Failure> {
     let overrides = changes.iter().map(|change| match change.split_once('=') {
         Some((path, value)) if !path.is_empty() && !value.is_empty() => Ok((path.trim().to_owned(), value.trim().to_owned())),
         _ => Err(Failure::from(
-            argument("change", change, "bad_override", "this is not of the form PATH=VALUE").with_hint("for example `--change speed=20m/s`"),
+            argument("change", change, "bad_override", "this is not of the form PATH=VALUE")
+                .with_hint("for example `--change speed=20m/s`"),
         )),
     });
     let overrides = overrides.collect::<Result<Vec<_>, _>>()?;

@@ -132,7 +132,7 @@ fn modes_are_shown_with_their_shapes() {
     assert!(without["points"][0]["modes"][0].get("shape").is_none());
 }
 
-/// Every bundled mechanism becomes a scene; the ends of its loops are where its bodies are.
+/// Joints of other kinds, a wheel alone, a spring.
 #[test]
 fn mechanisms_are_shown_too() {
     for (model, duration) in [("pendulum", "1s"), ("four_bar_diagonal_spring", "0.2s"), ("rolling_disc", "0.5s"), ("heavy_top", "0.2s")] {
@@ -140,10 +140,23 @@ fn mechanisms_are_shown_too() {
         let data = data(&page);
         let bodies = data["scene"]["bodies"].as_array().expect("bodies");
         let shapes: usize = bodies.iter().filter_map(|b| b["shapes"].as_array()).map(Vec::len).sum();
-        assert!(shapes > 1 && numbers(&data["poses"]).iter().all(|x| x.is_finite()), "{model}");
+        let contacts = data["scene"]["contacts"].as_array().expect("contacts").len();
+        assert!(shapes + contacts > 1 && numbers(&data["poses"]).iter().all(|x| x.is_finite()), "{model}");
         let springs = data["scene"]["links"].as_array().expect("links").len();
         assert_eq!(springs, usize::from(model == "four_bar_diagonal_spring"), "{model}");
     }
+}
+
+/// A mechanism at rest has modes without anything cyclic; its only coordinate turns its only body.
+#[test]
+fn modes_of_a_mechanism_at_rest_are_shown() {
+    let (page, _) = page("animation_pendulum_modes", &["modes", "pendulum"]);
+    let data = data(&page);
+    let mode = &data["points"][0]["modes"][0];
+    let twists = numbers(&mode["twists"]);
+    let turn = twists[..3].iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!((turn - 1.0).abs() < 1e-6, "{twists:?}");
+    assert_eq!((data["points"][0]["label"].as_str(), &mode["path"][1][0]), (Some("static pose"), &Value::from(0.0)));
 }
 
 #[test]

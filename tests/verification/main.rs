@@ -12,8 +12,8 @@ mod mechanisms;
 mod motion;
 mod recorded;
 mod responses;
-mod sensitivity;
 mod ride;
+mod sensitivity;
 mod trim;
 
 use validation::evidence;

@@ -96,7 +96,15 @@ fn left_is_like_right() {
 /// Composite Simpson rule over evenly spaced samples, an odd number of them.
 fn integral(values: &[f64], step: f64) -> f64 {
     let last = values.len() - 1;
-    let weight = |k: usize| if k == 0 || k == last { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
+    let weight = |k: usize| {
+        if k == 0 || k == last {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        }
+    };
     values.iter().enumerate().map(|(k, v)| weight(k) * v).sum::<f64>() * step / 3.0
 }
 
@@ -250,7 +258,8 @@ fn wheels_lift_land_and_go_on() {
             });
             let simulation = &course.simulation;
             assert!(simulation.ending.reached(), "{torque} {by:?}: {:?}", simulation.ending);
-            let of_wheel: Vec<_> = simulation.crossings.iter().filter(|c| c.name == "wheel_lifted" && c.signal.starts_with(wheel)).collect();
+            let of_wheel: Vec<_> =
+                simulation.crossings.iter().filter(|c| c.name == "wheel_lifted" && c.signal.starts_with(wheel)).collect();
             assert!(of_wheel.len() >= 2 && of_wheel[0].violated && !of_wheel[1].violated, "{torque} {by:?}: {:?}", simulation.crossings);
             assert!(simulation.trajectory.columns.iter().flatten().all(|x| x.is_finite()), "{torque} {by:?}");
             // it lands and settles

@@ -1,8 +1,8 @@
 //! `comfort`: weighted acceleration of a point on a rough road, over speed.
 
-use crate::figures::modes::quantity;
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, unknown_name};
+use crate::figures::modes::quantity;
 use crate::output::comfort::{Class, ComfortAlong};
 use crate::output::{Beside, Report};
 use crate::plan::TrimArguments;

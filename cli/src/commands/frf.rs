@@ -1,8 +1,8 @@
 //! `frf`: frequency responses at a steady state or along a sweep.
 
-use crate::figures::modes::quantity;
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
+use crate::figures::modes::quantity;
 use crate::output::responses::{Responses, quotient};
 use crate::output::{Angles, Beside, Point, Report};
 use crate::plan::TrimArguments;

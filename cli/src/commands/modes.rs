@@ -102,7 +102,7 @@ fn command(command: Command) -> Command {
          fastbike modes ref11 --speed 10..60:1 --lateral-acceleration -5 --figure frequencies --plot frequencies.svg\n  \
          fastbike modes gsxr1000 --speed 10..60:2 --versus steering_damper.coefficient=0 --plot damper.svg\n  \
          fastbike modes gsxr1000 --speed 40 --sensitivity wobble\n  fastbike modes gsxr1000 --speed 30 --shapes --plot shapes.svg\n  \
-         fastbike modes whipple --speed 1..10:0.25 --format csv",
+         fastbike modes whipple --speed 1..10:0.25 --format csv\n  fastbike modes gsxr1000 --speed 10..60:10 --animate modes.html",
     )
 }
 

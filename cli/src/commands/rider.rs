@@ -40,7 +40,7 @@ struct Arguments {
     #[arg(long, value_name = "ACCELERATION", default_value = "0", allow_hyphen_values = true)]
     lateral_acceleration: String,
     /// Offset from the path that counts as much as --heading and --torque
-    #[arg(long, value_name = "LENGTH", default_value = "0.3m")]
+    #[arg(long, value_name = "LENGTH", default_value = "0.15m")]
     offset: String,
     /// Heading error that counts as much
     #[arg(long, value_name = "ANGLE", default_value = "0.05rad")]
@@ -143,9 +143,7 @@ fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {
         }
         Picture::Poles => {
             let poles = |k: usize| along.points[k].iter().flat_map(|r| &r.closed).filter(|s| s.im >= 0.0).map(|s| (s.re, s.im));
-            let branches = known.iter().flat_map(|&k| {
-                poles(k).map(move |p| (k, p)).collect::<Vec<_>>()
-            });
+            let branches = known.iter().flat_map(|&k| poles(k).map(move |p| (k, p)).collect::<Vec<_>>());
             let branches = branches.map(|(k, p)| Locus { name: name(k), points: vec![p], begins: false, variant: 0 }).collect();
             Ok(Figure::RootLocus(RootLocus { title: title("Closed loop"), branches, first: String::new(), variants: Vec::new() }))
         }
@@ -171,7 +169,13 @@ fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {
                 LinePanel { y: Axis::new(signal.name.clone(), format!("N m/({})", shown.unit)), curves }
             });
             let panels = panels.collect();
-            Ok(Figure::Lines(Lines { title: title("Gains"), x: Axis::new("speed", "m/s"), panels, bands: Vec::new(), variants: Vec::new() }))
+            Ok(Figure::Lines(Lines {
+                title: title("Gains"),
+                x: Axis::new("speed", "m/s"),
+                panels,
+                bands: Vec::new(),
+                variants: Vec::new(),
+            }))
         }
     }
 }

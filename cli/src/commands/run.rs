@@ -73,13 +73,14 @@ struct Arguments {
 
 fn command(command: Command) -> Command {
     Arguments::augment_args(command).about("Motion over time from a steady state or from start values").after_help(
-        "With `--speed` the motion of a vehicle starts from the steady state that `trim` finds for the same options, and every input keeps the \
+        "With a maneuver the virtual rider is made for it: gains from the vehicle itself, over speed and lateral acceleration. With `--speed` the motion of a vehicle starts from the steady state that `trim` finds for the same options, and every input keeps the \
          value that it has there. Otherwise it starts from `start` of the description and the design pose, with inputs at their defaults. \
          `--signals` then replaces inputs, `--given` start values and inputs. A vehicle that has fallen ends the motion; lifting wheels and \
          other limits are told with their times, and the motion goes on. Ctrl-C ends it and keeps what was computed.\n\n\
-         Examples:\n  fastbike run gsxr1000 --speed 30 --given steer.torque=2 --until 'chassis.roll<-30deg'\n  \
+         Examples:\n  fastbike run gsxr1000 lane_change --plot lane_change.svg\n  fastbike run ref11 u_turn --change speed=4 --animate u_turn.html\n  \
+         fastbike run gsxr1000 --speed 30 --given steer.torque=2 --until 'chassis.roll<-30deg'\n  \
          fastbike run ref11 --speed 25 --lean 20deg --signals pulse.csv --plot run.svg\n  fastbike run andrews_squeezer --duration 30ms\n  \
-         fastbike run whipple --given chassis.roll_rate=0.05 --plot run.svg\n  \
+         fastbike run whipple --given chassis.roll_rate=0.05 --plot run.svg --animate run.html\n  \
          fastbike run pendulum --backend erk --rtol 1e-9 --record system.energy --format csv",
     )
 }

@@ -2,9 +2,9 @@
 //!
 //! One full roll per two cones: `f = V / 2d`; the curve is `|φ/τ|` at that frequency. Source: theory manual 9.3.
 
-use crate::figures::modes::quantity;
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
+use crate::figures::modes::quantity;
 use crate::output::responses::quotient;
 use crate::output::{Angles, Beside, Point, Report};
 use crate::plan::TrimArguments;

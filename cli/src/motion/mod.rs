@@ -9,8 +9,8 @@ use crate::Failure;
 use crate::arguments::{argument, unknown_name};
 use crate::backend::{self, Integrator};
 use crate::interrupt::Interrupt;
-use crate::output::{History, Outcome, Progress, small};
 use crate::maneuver::Ride;
+use crate::output::{History, Outcome, Progress, small};
 use crate::plan;
 pub use account::{DISSIPATED, ENERGY, SUPPLIED};
 use analyses::transient::{Cause, Method, Simulation, Start, Trajectory, Transient, TransientEnding, TransientError};
@@ -118,6 +118,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     };
     transient.ends = condition::conditions(&request.until, &plant)?;
     transient.ends.extend(goal);
+    transient.breaks = plant.breaks();
     let (n, nu) = (system.unknowns().len(), system.inputs().len());
     // what is commanded is an output of the whole
     let names = Variables::of(&plant);
@@ -213,7 +214,8 @@ fn told(ending: &TransientEnding, ends: &[Limit]) -> (Option<String>, Option<Str
             let met = ends.iter().find(|l| l.name == *name && l.signal == *signal && l.threshold == *threshold);
             let sign = if met.is_some_and(|l| l.side == Side::Below) { "<" } else { ">" };
             let passed = format!("`{signal}` {sign} {threshold:.6}");
-            let cause = (name != condition::UNTIL && name != crate::maneuver::GOAL).then(|| format!("{}: {passed}", met.map_or("", |l| &l.about)));
+            let cause =
+                (name != condition::UNTIL && name != crate::maneuver::GOAL).then(|| format!("{}: {passed}", met.map_or("", |l| &l.about)));
             (Some(passed), cause)
         }
     }

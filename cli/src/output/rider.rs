@@ -49,9 +49,8 @@ pub(super) fn add_json(along: &RiderAlong, object: &mut Value) {
             Ok(r) => {
                 let named: Map<String, Value> = along.feedback.iter().zip(gains(r)).map(|(s, g)| (s.name.clone(), json!(g))).collect();
                 let closed: Vec<Value> = r.closed.iter().map(|s| json!({ "re": s.re, "im": s.im })).collect();
-                let crossings: Vec<Value> = (r.margins.crossings.iter())
-                    .map(|c| json!({ "frequency_hz": c.frequency, "phase_margin": c.phase_margin }))
-                    .collect();
+                let crossings: Vec<Value> =
+                    (r.margins.crossings.iter()).map(|c| json!({ "frequency_hz": c.frequency, "phase_margin": c.phase_margin })).collect();
                 let margins = json!({
                     "phase_margin": r.margins.phase_margin(),
                     "least_factor": r.margins.least_factor,
@@ -120,10 +119,8 @@ fn write_gains(report: &Report, along: &RiderAlong, options: &Options, out: &mut
     writeln!(out, "\n{}", styled(options.palette.heading, &format!("gains, {} per unit of the signal in SI", along.effort)))?;
     let titles = chosen.iter().map(|&k| table::prescribed(report, &report.points[k], options.angles)).collect::<Vec<_>>();
     titles.iter().enumerate().try_for_each(|(k, title)| writeln!(out, "  ({}) {title}", k + 1))?;
-    let columns: Vec<Vec<String>> = chosen
-        .iter()
-        .map(|&k| aligned(&along.points[k].iter().flat_map(gains).map(number).collect::<Vec<_>>()))
-        .collect();
+    let columns: Vec<Vec<String>> =
+        chosen.iter().map(|&k| aligned(&along.points[k].iter().flat_map(gains).map(number).collect::<Vec<_>>())).collect();
     for (row, signal) in along.feedback.iter().enumerate() {
         let cells = columns.iter().map(|c| format!("{:>14}", c[row])).collect::<Vec<_>>().join("");
         writeln!(out, "  {:names$}{cells}  per {}", signal.name, signal.unit)?;

@@ -296,6 +296,11 @@ impl Pchip {
         (self.x[0], self.x[self.x.len() - 1])
     }
 
+    /// Abscissas of the knots.
+    pub fn knots(&self) -> &[f64] {
+        &self.x
+    }
+
     /// Value at x.
     pub fn value<S: Real>(&self, x: S) -> S {
         let i = interval(&self.x, x.value());

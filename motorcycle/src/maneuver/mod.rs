@@ -59,6 +59,12 @@ impl Course {
         self.torque_pulses.iter().map(|p| p.at(time)).sum()
     }
 
+    /// Times at which pulses begin and end and at which the target speed has its points, s.
+    pub fn breaks(&self) -> Vec<f64> {
+        let pulses = self.torque_pulses.iter().flat_map(|p| [p.start, p.start + p.duration]);
+        pulses.chain(self.speed.knots()).collect()
+    }
+
     /// Time that the path takes at its target speed, s.
     pub fn duration(&self) -> f64 {
         // steps of the arc length at the speed of their beginning
@@ -119,7 +125,7 @@ struct PulseDescription {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RiderDescription {
-    /// Offset from the path that counts as much as the other values here; 0.3 m where left out.
+    /// Offset from the path that counts as much as the other values here; 0.15 m where left out.
     pub offset: Option<PositiveQuantity<Length>>,
     /// Heading error that counts as much; 0.05 rad where left out.
     pub heading: Option<PositiveQuantity<mbody::description::quantity::dimension::Angle>>,
@@ -269,14 +275,8 @@ fn target(written: &ManeuverDescription) -> Result<Speed, (&'static str, String)
     let curve = |key: &'static str, (x, y): (Vec<f64>, Vec<f64>)| Pchip::new(&x, &y).map_err(|e| (key, e.to_string()));
     match (&written.speed_over_time, &written.speed_along_path) {
         (None, None) => Ok(Speed::Constant(written.speed.si())),
-        (Some(points), None) => {
-            curve("speed_over_time", points.iter().map(|(t, v)| (t.si(), v.si())).unzip()).map(Speed::OverTime)
-        }
-        (None, Some(points)) => {
-            curve("speed_along_path", points.iter().map(|(s, v)| (s.si(), v.si())).unzip()).map(Speed::AlongPath)
-        }
-        (Some(_), Some(_)) => {
-            Err(("speed_along_path", "the target speed is given twice, over time and along the path".to_owned()))
-        }
+        (Some(points), None) => curve("speed_over_time", points.iter().map(|(t, v)| (t.si(), v.si())).unzip()).map(Speed::OverTime),
+        (None, Some(points)) => curve("speed_along_path", points.iter().map(|(s, v)| (s.si(), v.si())).unzip()).map(Speed::AlongPath),
+        (Some(_), Some(_)) => Err(("speed_along_path", "the target speed is given twice, over time and along the path".to_owned())),
     }
 }

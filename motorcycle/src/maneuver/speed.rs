@@ -39,6 +39,14 @@ impl Speed {
         }
     }
 
+    /// Points of time, s, where it is given over time.
+    pub fn knots(&self) -> Vec<f64> {
+        match self {
+            Self::OverTime(curve) => curve.knots().to_vec(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Target at the start, m/s.
     pub fn first(&self) -> f64 {
         self.at(0.0, 0.0, 0.0).0

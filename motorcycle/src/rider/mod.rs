@@ -260,6 +260,9 @@ impl Controller for Rider {
     fn outputs(&self) -> &[Signal] {
         &self.outputs
     }
+    fn breaks(&self) -> Vec<f64> {
+        self.course.breaks()
+    }
     fn answer(&mut self, time: f64, measured: &[f64], states: &[f64], answer: Answer<'_>) -> Result<(), EvalError> {
         let at = self.read_schedule(measured, states);
         let reply = self.law(time, measured, states, &self.row, at);

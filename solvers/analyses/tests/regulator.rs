@@ -2,8 +2,8 @@
 
 #![allow(non_snake_case)]
 
-use analyses::linearize::{Cyclic, State};
 use analyses::LinearModel;
+use analyses::linearize::{Cyclic, State};
 use analyses::regulator::{Actuator, Course, Design, Regulator, follow};
 use nalgebra::{DMatrix, DVector};
 use problem::{Input, Signal, UnknownKind};

@@ -41,6 +41,10 @@ pub trait Controller: Send {
     fn limits(&self) -> &[Limit] {
         &[]
     }
+    /// Times at which its answer jumps or has a corner, s, in any order: an integration starts anew there, and steps over nothing that is short.
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
     /// Writes commands, rates and outputs. The index of an error is that of a state.
     fn answer(&mut self, time: f64, measured: &[f64], states: &[f64], answer: Answer<'_>) -> Result<(), EvalError>;
     /// Writes them with their derivatives along directions of (measured, states), one column per direction.

@@ -71,14 +71,17 @@ function besideModes() {
   const list = select("mode", modes().map(called), (k) => choose(k));
   const table = element("table", host);
   amplitude();
-  select("moving frame", ["travels with the vehicle", "stays"], (k) => {
-    film.travels = k === 0;
-    restart();
-  });
-  const path = select("path of the mode", ["shown", "left out"], (k) => {
+  // a mechanism on a fixed base has neither
+  const path = scene.follows !== null && select("path of the mode", ["shown", "left out"], (k) => {
     film.path = k === 0;
     state.dirty = true;
   });
+  if (path) {
+    select("moving frame", ["travels with the vehicle", "stays"], (k) => {
+      film.travels = k === 0;
+      restart();
+    });
+  }
   select("amplitude in time", ["constant", "fades or grows"], (k) => {
     film.fades = k === 1;
     $("slider").max = film.window[1];
@@ -92,7 +95,7 @@ function besideModes() {
     film.choose(point, k);
     // slow motions travel far: their path is left out at first
     film.path = film.mode.im > 1;
-    path.value = film.path ? "0" : "1";
+    if (path) path.value = film.path ? "0" : "1";
     tell(table, facts(film.mode));
     for (const p of phasors) p.show(film.mode.phasors.filter((x) => x.unit === p.unit));
     $("slider").max = film.window[1];

@@ -22,15 +22,22 @@ class Camera {
   }
 
   set(view) {
+    // a free camera goes on from where the last one stood
+    const turned = this.turns ? this.heading || 0 : 0;
     this.view = view;
     const along = this.travels || this.thin !== 0 ? -Math.PI / 2 : 0;
     const angles = {
       follow: this.travels ? [Math.PI + 0.62, 0.3] : [along - 0.5, 0.32],
       side: [along, this.travels ? 0.06 : 0.0],
       top: [along, 1.5707],
-      free: [this.yaw + (this.travels ? this.heading || 0 : 0), this.pitch],
+      free: [(this.yaw ?? along) + turned, this.pitch ?? 0.3],
     };
     [this.yaw, this.pitch] = angles[view];
+  }
+
+  // Whether it turns with what it follows.
+  get turns() {
+    return this.view === "follow" || this.view === "side";
   }
 
   // target: what is followed; jump: no delay.
@@ -45,9 +52,9 @@ class Camera {
 
   // Matrix and eye relative to the target.
   look(aspect) {
-    const yaw = this.yaw + (this.view === "follow" || this.view === "side" ? this.heading : 0);
+    const yaw = this.yaw + (this.turns ? this.heading : 0);
     const wide = Math.min(1, aspect);
-    const d = (this.distance * this.size * (this.travels ? 2 : 1.6)) / wide;
+    const d = (this.distance * this.size * 2) / wide;
     const eye = [d * Math.cos(this.pitch) * Math.cos(yaw), d * Math.cos(this.pitch) * Math.sin(yaw), d * Math.sin(this.pitch)];
     const up = this.pitch > 1.5 ? [-Math.cos(yaw), -Math.sin(yaw), 0] : [0, 0, 1];
     this.axes = looking(eye, [0, 0, 0], up);

@@ -123,24 +123,25 @@ function line(pen, points) {
 class Phasors {
   constructor(parent, unit) {
     this.unit = unit;
-    element("h2", parent, unit === "mm" ? "displacements" : "angles");
+    this.head = element("h2", parent, unit === "mm" ? "displacements" : "angles");
     this.canvas = element("canvas", parent, undefined, { class: "phasor" });
     this.key = element("ul", parent, undefined, { class: "key" });
   }
 
   show(list) {
     this.list = list;
+    this.head.hidden = this.canvas.hidden = !list.length;
     this.key.replaceChildren();
     list.forEach((p, k) => {
       const row = element("li", this.key);
       element("i", row).style.background = CURVES[k % CURVES.length];
       row.append(p.name);
-      this.values = list.map(() => null);
       element("span", row);
     });
   }
 
   draw(amplitude, turn, size) {
+    if (!this.list.length) return;
     const [pen, w, h] = sheet(this.canvas);
     const largest = Math.max(...this.list.map((p) => Math.hypot(p.re, p.im)), 1e-30);
     const r = h / 2 - 14, [cx, cy] = [w / 2, h / 2];

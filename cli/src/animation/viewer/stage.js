@@ -149,6 +149,7 @@ function triad() {
 }
 
 function legend() {
+  if (!painter) return;
   const entries = [];
   const forces = film.strongest > 0;
   if (forces && layers.forces) {

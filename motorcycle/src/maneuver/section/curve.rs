@@ -33,7 +33,9 @@ impl SectionDescription for Curve {
     fn lay(self, path: &mut Layout) -> Result<(), Finding> {
         let (radius, entry) = (self.radius.si(), self.transition.si());
         if radius == 0.0 {
-            return Err(Finding::error("out_of_range", "a radius of `0 m` is out of range").at_path("radius").with_hint("a straight is its own section"));
+            return Err(Finding::error("out_of_range", "a radius of `0 m` is out of range")
+                .at_path("radius")
+                .with_hint("a straight is its own section"));
         }
         let exit = self.exit.map(|e| e.si());
         let arc = match (self.angle, self.length) {
@@ -43,7 +45,9 @@ impl SectionDescription for Curve {
                 let arc = angle.si() * radius.abs() - 0.5 * (entry + exit.unwrap_or(0.0));
                 if arc < 0.0 {
                     let message = format!("the transitions alone turn by more than the angle: the arc would be {arc:.3} m long");
-                    return Err(Finding::error("out_of_range", message).at_path("angle").with_hint("take shorter transitions or a larger angle"));
+                    return Err(Finding::error("out_of_range", message)
+                        .at_path("angle")
+                        .with_hint("take shorter transitions or a larger angle"));
                 }
                 arc
             }

@@ -45,7 +45,9 @@ impl SectionDescription for DoubleLaneChange {
         let b = self.vehicle_width.si();
         let stretch = self.stretch.unwrap_or(1.0);
         if !(stretch.is_finite() && stretch > 0.0) {
-            return Err(Finding::error("out_of_range", format!("a stretch of `{stretch}` is out of range: it must be positive")).at_path("stretch"));
+            return Err(
+                Finding::error("out_of_range", format!("a stretch of `{stretch}` is out of range: it must be positive")).at_path("stretch")
+            );
         }
         let (lengths, offset) = match self.standard {
             Standard::DoubleLaneChange => ([15.0, 30.0, 25.0, 25.0, 15.0], 3.5),

@@ -120,7 +120,8 @@ mod tests {
 
     #[test]
     fn sections_end_where_their_parameters_say() {
-        let near = |(x, y, h): (f64, f64, f64), (a, b, c): (f64, f64, f64)| (x - a).abs() < 1e-4 && (y - b).abs() < 1e-4 && (h - c).abs() < 1e-5;
+        let near =
+            |(x, y, h): (f64, f64, f64), (a, b, c): (f64, f64, f64)| (x - a).abs() < 1e-4 && (y - b).abs() < 1e-4 && (h - c).abs() < 1e-5;
         let change = end("lane_change", "{ width: 3.6 m, length: 40 m }");
         assert!(near(change, (40.0, 3.6, 0.0)), "{change:?}");
         let double = end("double_lane_change", "{ standard: iso_3888_2, vehicle_width: 0.8 m }");

@@ -156,6 +156,11 @@ impl<P: Plant> ClosedLoop<P> {
         &mut self.plant
     }
 
+    /// Times at which controllers jump or have a corner, s.
+    pub fn breaks(&self) -> Vec<f64> {
+        self.wires.iter().flat_map(|w| w.controller.breaks()).collect()
+    }
+
     /// All inputs of the plant at the point evaluated last: those given and those commanded.
     pub fn plant_inputs(&self) -> &[f64] {
         &self.u

@@ -143,8 +143,11 @@ fn shape(model: &LinearModel, spectrum: &Spectrum, slot: usize) -> Vec<Complex<f
     let v = first.map_or_else(|| v.into_owned(), |k| v / in_nominal(k));
     let complex = |m: &nalgebra::DMatrix<f64>| m.map(|e| Complex::new(e, 0.0));
     let mut shape: Vec<Complex<f64>> = (complex(&model.unknowns) * &v).iter().copied().collect();
-    let rates = complex(&model.cyclic.by_states) * &v;
     let n = model.cyclic.unknowns.len();
+    if n == 0 {
+        return shape;
+    }
+    let rates = complex(&model.cyclic.by_states) * &v;
     let integrator = nalgebra::DMatrix::from_fn(n, n, |i, j| {
         let own = if i == j { s } else { Complex::new(0.0, 0.0) };
         own - Complex::new(model.cyclic.by_cyclic[(i, j)], 0.0)

@@ -171,7 +171,8 @@ pub fn follow(model: &LinearModel, course: &Course, design: &Design) -> Result<R
     }
     (Q[(n, n)], Q[(n + 1, n + 1)]) = (design.path.0.powi(-2), design.path.1.powi(-2));
     let R = DMatrix::from_element(1, 1, design.effort.powi(-2));
-    let nominal: Vec<f64> = kept.iter().map(|&k| model.states[k].nominal).chain([design.path.0, design.path.1]).chain(actuated(design)).collect();
+    let nominal: Vec<f64> =
+        kept.iter().map(|&k| model.states[k].nominal).chain([design.path.0, design.path.1]).chain(actuated(design)).collect();
     let solved = riccati((&A, &B), (&Q, &R), &nominal)?;
     let speed = course.speed.0.hypot(course.speed.1);
     let bent = solved.P.column(n + 1) * speed;

@@ -192,11 +192,7 @@ mod tests {
     #[test]
     fn stiff_models_in_mixed_units_are_solved() {
         // relaxation at 4000 1/s beside an unstable motion at 3 1/s and a chain of integrators
-        let A = DMatrix::from_row_slice(
-            4,
-            4,
-            &[0.0, 25.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 9.0, 0.0, 1e-3, 0.0, 0.0, 1e5, -4e3],
-        );
+        let A = DMatrix::from_row_slice(4, 4, &[0.0, 25.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 9.0, 0.0, 1e-3, 0.0, 0.0, 1e5, -4e3]);
         let B = DMatrix::from_row_slice(4, 1, &[0.0, 0.0, 0.4, 3e4]);
         let Q = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![10.0, 400.0, 0.0, 0.0]));
         let found = riccati((&A, &B), (&Q, &DMatrix::from_element(1, 1, 1.0 / 400.0)), &[1.0, 0.1, 1.0, 1e3]).unwrap();

@@ -101,6 +101,8 @@ pub struct Transient {
     pub record: Vec<Variable>,
     /// Conditions that end it where they are violated. Limits that the plant declares are told and do not end it, unless they stand here.
     pub ends: Vec<Limit>,
+    /// Times at which the plant itself jumps or has a corner, s: those of its controllers.
+    pub breaks: Vec<f64>,
 }
 
 /// A simulation that was run.
@@ -142,7 +144,14 @@ pub fn everything(plant: &dyn Plant) -> Vec<Variable> {
 impl Transient {
     /// A simulation from the stated start, everything recorded.
     pub fn new(plant: &dyn Plant, times: Vec<f64>) -> Self {
-        Self { start: Start::stated(plant), times, options: IntegrationOptions::default(), record: everything(plant), ends: Vec::new() }
+        Self {
+            start: Start::stated(plant),
+            times,
+            options: IntegrationOptions::default(),
+            record: everything(plant),
+            ends: Vec::new(),
+            breaks: Vec::new(),
+        }
     }
 
     /// Runs it.
@@ -196,10 +205,11 @@ impl Transient {
         watch.begin(&values).map(met)
     }
 
-    /// Breaks of the inputs within the time asked for, each once, in order.
+    /// Breaks of inputs and plant within the time asked for, each once, in order.
     fn breaks(&self, inputs: &dyn Inputs) -> Vec<f64> {
         let (first, last) = (self.times[0], self.times[self.times.len() - 1]);
         let mut breaks = inputs.breaks();
+        breaks.extend(&self.breaks);
         breaks.retain(|&t| first < t && t < last);
         breaks.sort_by(f64::total_cmp);
         // no step fits between times that rounding separates
