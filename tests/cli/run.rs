@@ -290,7 +290,8 @@ fn inputs_come_from_files() {
 /// Hard braking lifts the rear wheel; it is told when, and the motion goes on.
 #[test]
 fn events_are_told_with_their_times() {
-    let stoppie = ["run", "gsxr1000", "--speed", "30", "--duration", "1s", "--given", "front_brake.torque=900", "--given", "drive.torque=0"];
+    let stoppie =
+        ["run", "gsxr1000", "--speed", "30", "--duration", "1s", "--given", "front_brake.torque=900", "--given", "drive.torque=0"];
     let report = json(&with(&stoppie, &["--format", "json"]), 0);
     let events = report["events"].as_array().expect("events");
     let lifted = events.iter().find(|e| e["name"] == "wheel_lifted" && e["signal"] == "rear_tire.normal_force").expect("a lifted wheel");

@@ -17,14 +17,14 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "1e-6 of the nominal value of each unknown: tolerance 1e-9 and residual of the trim, amplified by slow modes"
     ),
     left_is_like_right => (
-        "`gsxr1000`: 3 s after pulses of steering torque to the left and to the right are mirror images, by ERK and IDA",
+        "`ref11` and `moto11`: 3 s after pulses of steering torque to the left and to the right are mirror images, by ERK and IDA",
         "identity",
         "1e-8 rad, m, per second: tolerance 1e-11"
     ),
     energy_is_accounted_for => (
         "`gsxr1000` and `ref11`: energy gained over 2 s of braking and steering is what was supplied less what was dissipated",
         "identity",
-        "1e-6 of the power turned over: quadrature over 4000 samples"
+        "1e-6 of the power turned over: quadrature over 1000 samples"
     ),
     controllers_act_alike_in_both_forms => (
         "`ref11` with a speed controller (PI) and a steering damper as controllers: ERK and IDA agree, and the damper is the one of the description",
@@ -73,26 +73,27 @@ fn steady_states_stay() {
 
 #[test]
 fn left_is_like_right() {
-    let state = straight("gsxr1000", 25.0);
     let mut agreement = Agreement::on("left and right");
     let mirrored = absolute(1e-8).because("tolerance 1e-11 of the integration");
-    for by in [By::Erk(1e-11, 1e-5), By::Ida(1e-11, 1e-5)] {
+    let sides = ["chassis.roll", "chassis.roll_rate", "chassis.yaw_rate", "chassis.lateral_speed", "steer.angle", "steer.rate"];
+    let sames = ["chassis.forward_speed", "chassis.heave", "chassis.pitch", "fork.travel", "swingarm.angle"];
+    // not `gsxr1000`: the published formula of its tires fades the side force with driving slip a little less to one side (rBy3)
+    for (model, by) in ["ref11", "moto11"].into_iter().flat_map(|m| [(m, By::Erk(1e-11, 1e-5)), (m, By::Ida(1e-11, 1e-5))]) {
+        let state = straight(model, 25.0);
         let [left, right] = [1.0, -1.0].map(|side| {
             Course::ride(&state, &evenly(3.0, 31), by, |plant, inputs| {
                 inputs.add(plant, input(plant, "steer.torque"), Box::new(Pulse { begin: 0.1, duration: 0.3, height: side * 8.0 }));
             })
         });
-        let sides = ["chassis.roll", "chassis.roll_rate", "chassis.yaw_rate", "chassis.lateral_speed", "steer.angle", "steer.rate"];
-        let sames = ["chassis.forward_speed", "chassis.heave", "chassis.pitch", "fork.travel", "swingarm.angle"];
         for (names, sign) in [(&sides[..], -1.0), (&sames[..], 1.0)] {
             for name in names {
                 for (k, (l, r)) in left.signal(name).iter().zip(right.signal(name)).enumerate() {
-                    agreement.near(&format!("{by:?}, sample {k}: {name}"), *l, sign * r, &mirrored);
+                    agreement.near(&format!("{model} {by:?}, sample {k}: {name}"), *l, sign * r, &mirrored);
                 }
             }
         }
         let largest = left.signal("chassis.roll").iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-        agreement.holds(&format!("the vehicle leans, by {largest} rad"), largest > 0.02);
+        agreement.holds(&format!("{model} leans, by {largest} rad"), largest > 0.01);
     }
     agreement.assert();
 }
@@ -100,7 +101,15 @@ fn left_is_like_right() {
 /// Composite Simpson rule over evenly spaced samples, an odd number of them.
 fn integral(values: &[f64], step: f64) -> f64 {
     let last = values.len() - 1;
-    let weight = |k: usize| if k == 0 || k == last { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
+    let weight = |k: usize| {
+        if k == 0 || k == last {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        }
+    };
     values.iter().enumerate().map(|(k, v)| weight(k) * v).sum::<f64>() * step / 3.0
 }
 
@@ -109,12 +118,12 @@ fn energy_is_accounted_for() {
     let mut agreement = Agreement::on("energy of rides");
     for model in ["gsxr1000", "ref11"] {
         let state = straight(model, 25.0);
-        let (duration, count) = (2.0, 4001);
+        let (duration, count) = (2.0, 1001);
         let brake = |plant: &TreePlant, inputs: &mut Driven| {
             inputs.add(plant, input(plant, "steer.torque"), Box::new(Pulse { begin: 0.1, duration: 0.4, height: 5.0 }));
             inputs.add(plant, input(plant, "front_brake.torque"), Box::new(Pulse { begin: 0.5, duration: 1.0, height: 150.0 }));
         };
-        let mut course = Course::ride(&state, &evenly(duration, count), By::Erk(1e-10, 1e-4), brake);
+        let mut course = Course::ride(&state, &evenly(duration, count), By::Adams(1e-10, 1e-4), brake);
         course.holds(&mut agreement, model);
         let nu = course.plant().inputs().len();
         let names: Vec<String> = course.plant().inputs().iter().map(|i| i.signal.name.clone()).collect();
@@ -130,7 +139,7 @@ fn energy_is_accounted_for() {
         }
         let step = duration / (count - 1) as f64;
         let (gained, balance, whole) = (energy[count - 1] - energy[0], integral(&net, step), integral(&turned, step));
-        let quadrature = absolute(1e-6 * whole).because("quadrature over 4000 samples");
+        let quadrature = absolute(1e-6 * whole).because("quadrature over 1000 samples");
         agreement.near(&format!("{model}: energy gained, J, of {whole:.0} J turned over"), gained, balance, &quadrature);
         agreement.holds(&format!("{model}: the vehicle brakes, {gained} J"), gained < -1000.0);
     }
@@ -247,14 +256,15 @@ fn controllers_act_alike_in_both_forms() {
 #[test]
 fn wheels_lift_land_and_go_on() {
     let state = straight("gsxr1000", 30.0);
-    for (torque, height, wheel) in [("front_brake.torque", 1100.0, "rear_tire"), ("drive.torque", 1600.0, "front_tire")] {
+    for (torque, height, wheel) in [("front_brake.torque", 1100.0, "rear_tire"), ("drive.torque", 1200.0, "front_tire")] {
         for by in [By::Erk(1e-7, 1e-1), By::Ida(1e-7, 1e-1)] {
             let course = Course::ride(&state, &evenly(3.0, 301), by, |plant, inputs| {
-                inputs.add(plant, input(plant, torque), Box::new(Pulse { begin: 0.2, duration: 0.7, height }));
+                inputs.add(plant, input(plant, torque), Box::new(Pulse { begin: 0.2, duration: 0.4, height }));
             });
             let simulation = &course.simulation;
             assert!(simulation.ending.reached(), "{torque} {by:?}: {:?}", simulation.ending);
-            let of_wheel: Vec<_> = simulation.crossings.iter().filter(|c| c.name == "wheel_lifted" && c.signal.starts_with(wheel)).collect();
+            let of_wheel: Vec<_> =
+                simulation.crossings.iter().filter(|c| c.name == "wheel_lifted" && c.signal.starts_with(wheel)).collect();
             assert!(of_wheel.len() >= 2 && of_wheel[0].violated && !of_wheel[1].violated, "{torque} {by:?}: {:?}", simulation.crossings);
             assert!(simulation.trajectory.columns.iter().flatten().all(|x| x.is_finite()), "{torque} {by:?}");
             // it lands and settles
@@ -269,7 +279,7 @@ fn wheels_lift_land_and_go_on() {
 fn braking_runs_through_standstill() {
     for model in ["gsxr1000", "ref11"] {
         let state = straight(model, 5.0);
-        for by in [By::Ida(1e-6, 1.0), By::Erk(1e-6, 1.0)] {
+        for by in [By::Ida(1e-6, 1.0), By::Bdf(1e-6, 1.0)] {
             let course = Course::ride(&state, &evenly(4.0, 401), by, |plant, inputs| {
                 let drive = input(plant, "drive.torque");
                 let held = state.get("drive.torque");
