@@ -1,7 +1,7 @@
 //! Vehicles over time: steady states stay, left and right are alike, wheels lift and land, energy is accounted for, controllers close the loop.
 
 use analyses::transient::{Driven, Pulse, Ramp, Start, Step, Transient, evenly};
-use analyses::{ClosedLoop, Variables};
+use analyses::{ClosedLoop, Variables, eigen};
 use mbody::dynamics::{Formulation, TreePlant};
 use problem::{Answer, AnswerAlong, At, Controller, Dae, EvalError, Matrix, Signal, Unknown, UnknownKind};
 use validation::agreement::{Agreement, absolute, relative};
@@ -17,14 +17,14 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "1e-6 of the nominal value of each unknown: tolerance 1e-9 and residual of the trim, amplified by slow modes"
     ),
     left_is_like_right => (
-        "`gsxr1000`: 3 s after pulses of steering torque to the left and to the right are mirror images, by ERK and IDA",
+        "`ref11` and `moto11`: 3 s after pulses of steering torque to the left and to the right are mirror images, by ERK and IDA",
         "identity",
         "1e-8 rad, m, per second: tolerance 1e-11"
     ),
     energy_is_accounted_for => (
         "`gsxr1000` and `ref11`: energy gained over 2 s of braking and steering is what was supplied less what was dissipated",
         "identity",
-        "1e-6 of the power turned over: quadrature over 4000 samples"
+        "1e-6 of the power turned over: quadrature over 1000 samples"
     ),
     controllers_act_alike_in_both_forms => (
         "`ref11` with a speed controller (PI) and a steering damper as controllers: ERK and IDA agree, and the damper is the one of the description",
@@ -41,14 +41,18 @@ fn straight(model: &str, speed: f64) -> State {
     Vehicle::bundled(model).state(&running(&[speed]))
 }
 
-/// Speeds at which nothing grows.
-const STABLE: [(&str, f64); 2] = [("ref11", 25.0), ("gsxr1000", 25.0)];
+/// Straight running at the lowest of some speeds at which no mode grows.
+fn stable(model: &str) -> State {
+    let decays = |state: &State| eigen(&state.linear()).is_ok_and(|spectrum| spectrum.values.iter().all(|s| s.re < 0.0));
+    let mut states = [15.0, 17.5, 20.0, 22.5, 25.0, 27.5, 30.0].map(|speed| straight(model, speed)).into_iter();
+    states.find(decays).unwrap_or_else(|| panic!("{model} is unstable from 15 to 30 m/s"))
+}
 
 #[test]
 fn steady_states_stay() {
     let mut agreement = Agreement::on("steady states over time");
-    for (model, speed) in STABLE {
-        let state = straight(model, speed);
+    for model in ["ref11", "gsxr1000"] {
+        let state = stable(model);
         for by in [By::Erk(1e-9, 1e-3), By::Ida(1e-9, 1e-3)] {
             let mut course = Course::ride(&state, &evenly(10.0, 101), by, |_, _| {});
             course.holds(&mut agreement, &format!("{model} {by:?}"));
@@ -69,26 +73,27 @@ fn steady_states_stay() {
 
 #[test]
 fn left_is_like_right() {
-    let state = straight("gsxr1000", 25.0);
     let mut agreement = Agreement::on("left and right");
     let mirrored = absolute(1e-8).because("tolerance 1e-11 of the integration");
-    for by in [By::Erk(1e-11, 1e-5), By::Ida(1e-11, 1e-5)] {
+    let sides = ["chassis.roll", "chassis.roll_rate", "chassis.yaw_rate", "chassis.lateral_speed", "steer.angle", "steer.rate"];
+    let sames = ["chassis.forward_speed", "chassis.heave", "chassis.pitch", "fork.travel", "swingarm.angle"];
+    // not `gsxr1000`: the published formula of its tires fades the side force with driving slip a little less to one side (rBy3)
+    for (model, by) in ["ref11", "moto11"].into_iter().flat_map(|m| [(m, By::Erk(1e-11, 1e-5)), (m, By::Ida(1e-11, 1e-5))]) {
+        let state = straight(model, 25.0);
         let [left, right] = [1.0, -1.0].map(|side| {
             Course::ride(&state, &evenly(3.0, 31), by, |plant, inputs| {
                 inputs.add(plant, input(plant, "steer.torque"), Box::new(Pulse { begin: 0.1, duration: 0.3, height: side * 8.0 }));
             })
         });
-        let sides = ["chassis.roll", "chassis.roll_rate", "chassis.yaw_rate", "chassis.lateral_speed", "steer.angle", "steer.rate"];
-        let sames = ["chassis.forward_speed", "chassis.heave", "chassis.pitch", "fork.travel", "swingarm.angle"];
         for (names, sign) in [(&sides[..], -1.0), (&sames[..], 1.0)] {
             for name in names {
                 for (k, (l, r)) in left.signal(name).iter().zip(right.signal(name)).enumerate() {
-                    agreement.near(&format!("{by:?}, sample {k}: {name}"), *l, sign * r, &mirrored);
+                    agreement.near(&format!("{model} {by:?}, sample {k}: {name}"), *l, sign * r, &mirrored);
                 }
             }
         }
         let largest = left.signal("chassis.roll").iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-        agreement.holds(&format!("the vehicle leans, by {largest} rad"), largest > 0.02);
+        agreement.holds(&format!("{model} leans, by {largest} rad"), largest > 0.01);
     }
     agreement.assert();
 }
@@ -113,12 +118,12 @@ fn energy_is_accounted_for() {
     let mut agreement = Agreement::on("energy of rides");
     for model in ["gsxr1000", "ref11"] {
         let state = straight(model, 25.0);
-        let (duration, count) = (2.0, 4001);
+        let (duration, count) = (2.0, 1001);
         let brake = |plant: &TreePlant, inputs: &mut Driven| {
             inputs.add(plant, input(plant, "steer.torque"), Box::new(Pulse { begin: 0.1, duration: 0.4, height: 5.0 }));
             inputs.add(plant, input(plant, "front_brake.torque"), Box::new(Pulse { begin: 0.5, duration: 1.0, height: 150.0 }));
         };
-        let mut course = Course::ride(&state, &evenly(duration, count), By::Erk(1e-10, 1e-4), brake);
+        let mut course = Course::ride(&state, &evenly(duration, count), By::Adams(1e-10, 1e-4), brake);
         course.holds(&mut agreement, model);
         let nu = course.plant().inputs().len();
         let names: Vec<String> = course.plant().inputs().iter().map(|i| i.signal.name.clone()).collect();
@@ -134,7 +139,7 @@ fn energy_is_accounted_for() {
         }
         let step = duration / (count - 1) as f64;
         let (gained, balance, whole) = (energy[count - 1] - energy[0], integral(&net, step), integral(&turned, step));
-        let quadrature = absolute(1e-6 * whole).because("quadrature over 4000 samples");
+        let quadrature = absolute(1e-6 * whole).because("quadrature over 1000 samples");
         agreement.near(&format!("{model}: energy gained, J, of {whole:.0} J turned over"), gained, balance, &quadrature);
         agreement.holds(&format!("{model}: the vehicle brakes, {gained} J"), gained < -1000.0);
     }
@@ -251,10 +256,10 @@ fn controllers_act_alike_in_both_forms() {
 #[test]
 fn wheels_lift_land_and_go_on() {
     let state = straight("gsxr1000", 30.0);
-    for (torque, height, wheel) in [("front_brake.torque", 1100.0, "rear_tire"), ("drive.torque", 1600.0, "front_tire")] {
+    for (torque, height, wheel) in [("front_brake.torque", 1100.0, "rear_tire"), ("drive.torque", 1200.0, "front_tire")] {
         for by in [By::Erk(1e-7, 1e-1), By::Ida(1e-7, 1e-1)] {
             let course = Course::ride(&state, &evenly(3.0, 301), by, |plant, inputs| {
-                inputs.add(plant, input(plant, torque), Box::new(Pulse { begin: 0.2, duration: 0.7, height }));
+                inputs.add(plant, input(plant, torque), Box::new(Pulse { begin: 0.2, duration: 0.4, height }));
             });
             let simulation = &course.simulation;
             assert!(simulation.ending.reached(), "{torque} {by:?}: {:?}", simulation.ending);
@@ -274,7 +279,7 @@ fn wheels_lift_land_and_go_on() {
 fn braking_runs_through_standstill() {
     for model in ["gsxr1000", "ref11"] {
         let state = straight(model, 5.0);
-        for by in [By::Ida(1e-6, 1.0), By::Erk(1e-6, 1.0)] {
+        for by in [By::Ida(1e-6, 1.0), By::Bdf(1e-6, 1.0)] {
             let course = Course::ride(&state, &evenly(4.0, 401), by, |plant, inputs| {
                 let drive = input(plant, "drive.torque");
                 let held = state.get("drive.torque");

@@ -14,7 +14,7 @@ const FIRST_STEP: f64 = 1e-6;
 
 /// A plant in the form that a method takes.
 enum Form<'a, 'p, 'm> {
-    Implicit(&'m mut dyn DaeMethod, Implicit<'a, 'p>),
+    Implicit(&'m mut dyn DaeMethod, Box<Implicit<'a, 'p>>),
     Explicit(&'m mut dyn OdeMethod, Box<(ExplicitForm<'a, 'p>, Whole<'a, 'p>)>, Vec<f64>),
 }
 
@@ -40,7 +40,7 @@ impl<'a, 'p, 'm> Integration<'a, 'p, 'm> {
                 // such a step the rounding of a closed loop (1e-17 m) is a correction of 1e-7 m/s, which no iteration resolves, and shorter
                 // steps are worse.
                 let first_step = options.first_step.or(Some(spacing.min(FIRST_STEP)));
-                let form = Form::Implicit(method, Implicit::new(plant, acting, watch));
+                let form = Form::Implicit(method, Box::new(Implicit::new(plant, acting, watch)));
                 Self { plant, form, options: IntegrationOptions { first_step, ..options } }
             }
             Method::Ode(method) => {

@@ -4,11 +4,13 @@ mod closed_loop;
 mod methods;
 mod plants;
 
-use analyses::transient::{Cause, Constant, Inputs, Method, Simulation, Start, Transient, TransientEnding, TransientError, evenly};
+use analyses::transient::{
+    Cause, Constant, Driven, Inputs, Method, Simulation, Start, Step, Transient, TransientEnding, TransientError, evenly,
+};
 use analyses::{Variable, Variables};
 use methods::{ImplicitEuler, RungeKutta};
 use plants::{DAMPING, GRAVITY, MASS, Plant, STIFFNESS, oscillator, pendulum};
-use problem::{EvalError, Off, ProjectionError};
+use problem::{EvalError, Flow, Limit, Off, ProjectionError, Side};
 
 fn run(plant: &mut Plant, transient: &Transient, method: Method<'_>) -> Result<Simulation, TransientError> {
     let inputs = Constant::defaults(plant);
@@ -70,6 +72,55 @@ fn inputs_may_be_functions_of_time() {
     force.at(1.0, &mut u);
     assert_eq!(column(&simulation, "cart.force").last(), Some(&u[0]));
     assert_eq!(simulation.trajectory.signals[2].unit, "m/s²");
+}
+
+/// A jump between two samples costs no accuracy: the integration starts anew there. A sample on a jump is that after it.
+#[test]
+fn inputs_may_jump() {
+    let mut plant = oscillator();
+    let transient = Transient::new(&plant, evenly(2.0, 41));
+    let mut inputs = Driven::new(vec![0.0]);
+    for (time, height) in [(0.333, 8.0), (1.5, -8.0)] {
+        inputs.add(&plant, 0, Box::new(Step { time, height }));
+    }
+    // a step of the force releases the cart from where it would rest in the end
+    let pushed = |t: f64, at: f64| if t < at { 0.0 } else { 8.0 / STIFFNESS * (1.0 - 10.0 * released(t - at)) };
+    let exact = |t: f64| released(t) + pushed(t, 0.333) - pushed(t, 1.5);
+    let explicit = transient.run(&mut plant, &inputs, Method::Ode(&mut RungeKutta { step: 1e-3 })).expect("a start");
+    assert!(explicit.ending.reached() && explicit.trajectory.time == transient.times);
+    assert!(distance(&explicit, "cart.x", exact) < 1e-9);
+    let force = |s: &Simulation| [29, 30, 31].map(|k| column(s, "cart.force")[k]);
+    assert_eq!(force(&explicit), [8.0, 0.0, 0.0]);
+    let implicit = transient.run(&mut plant, &inputs, Method::Dae(&mut ImplicitEuler { step: 1e-3 })).expect("a start");
+    assert!(distance(&implicit, "cart.x", exact) < 3e-3 && force(&implicit) == force(&explicit));
+}
+
+#[test]
+fn a_watcher_may_stop_and_a_condition_may_hold_at_once() {
+    let mut plant = oscillator();
+    let mut transient = Transient::new(&plant, evenly(2.0, 41));
+    let mut seen = Vec::new();
+    let stopped = transient.run_watched(&mut plant, &Constant(vec![0.0]), Method::Ode(&mut RungeKutta { step: 1e-2 }), &mut |time| {
+        seen.push(time);
+        if time < 0.5 { Flow::Continue } else { Flow::Stop }
+    });
+    let stopped = stopped.expect("a start");
+    assert_eq!((stopped.ending.name(), &stopped.trajectory.time), ("stopped", &seen));
+    assert!((seen.len(), seen.last()) == (11, Some(&0.5)));
+    let limit = |signal: &str| Limit {
+        name: "until".into(),
+        signal: signal.to_owned(),
+        threshold: 0.05,
+        side: Side::Above,
+        nominal: 1.0,
+        about: "".into(),
+    };
+    transient.ends = vec![limit("cart.x")];
+    let met = by_runge_kutta(&mut plant, &transient, 1e-2);
+    assert_eq!((met.ending.name(), met.trajectory.time.as_slice()), ("until", &[0.0][..]));
+    transient.ends = vec![limit("cart.y")];
+    let error = run(&mut plant, &transient, Method::Ode(&mut RungeKutta { step: 0.1 })).expect_err("no signal");
+    assert_eq!(error, TransientError::UnknownSignal { signal: "cart.y".to_owned() });
 }
 
 /// The same pendulum in its angle from the downward vertical, released horizontally: θ̈ = −g sin θ.
