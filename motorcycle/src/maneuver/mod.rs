@@ -238,10 +238,12 @@ pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &m
     for (k, entry) in written.path.iter().enumerate() {
         let Some((name, value)) = entry.as_object().and_then(|o| o.iter().next()) else { continue };
         let Some(kind) = section::KINDS.iter().find(|k| k.name == name) else { continue };
-        if let Err(finding) = (kind.lay)(value, &mut layout) {
-            let below = if finding.path.is_empty() { String::new() } else { format!(".{}", finding.path) };
-            let path = format!("path.{k}.{name}{below}");
-            findings.push(document.locate(finding.at_path(path)));
+        if let Err(wrong) = (kind.lay)(value, &mut layout) {
+            for finding in wrong.iter() {
+                let below = if finding.path.is_empty() { String::new() } else { format!(".{}", finding.path) };
+                let path = format!("path.{k}.{name}{below}");
+                findings.push(document.locate(finding.clone().at_path(path)));
+            }
         }
     }
     let speed = match target(&written) {

@@ -9,7 +9,7 @@ mod through_points;
 mod u_turn;
 
 use super::path::{Layout, Twice};
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -26,7 +26,7 @@ pub trait SectionDescription: DeserializeOwned + JsonSchema {
     ///
     /// # Errors
     /// Parameters that do not go together.
-    fn lay(self, path: &mut Layout) -> Result<(), Finding>;
+    fn lay(self, path: &mut Layout) -> Result<(), Findings>;
 }
 
 /// A row of the table.
@@ -41,7 +41,7 @@ pub struct SectionKind {
     /// JSON Schema of the parameters.
     pub schema: fn(&mut SchemaGenerator) -> Schema,
     /// Reads the parameters and lays the section.
-    pub lay: fn(&Value, &mut Layout) -> Result<(), Finding>,
+    pub lay: fn(&Value, &mut Layout) -> Result<(), Findings>,
 }
 
 impl SectionKind {
@@ -56,11 +56,11 @@ impl std::fmt::Debug for SectionKind {
     }
 }
 
-fn lay<T: SectionDescription>(value: &Value, path: &mut Layout) -> Result<(), Finding> {
+fn lay<T: SectionDescription>(value: &Value, path: &mut Layout) -> Result<(), Findings> {
     let read: T = serde_path_to_error::deserialize(value).map_err(|e| {
         let at = e.path().to_string();
         let at = if at == "." { String::new() } else { at };
-        Finding::error("invalid_entry", e.into_inner().to_string()).at_path(at)
+        Findings::from(Finding::error("invalid_entry", e.into_inner().to_string()).at_path(at))
     })?;
     read.lay(path)
 }
@@ -92,7 +92,7 @@ mod tests {
             let value: Value = serde_yaml::from_str(kind.example).unwrap();
             let mut layout = Layout::default();
             layout.straight(5.0);
-            (kind.lay)(&value, &mut layout).unwrap_or_else(|e| panic!("{}: {}", kind.name, e.message));
+            (kind.lay)(&value, &mut layout).unwrap_or_else(|e| panic!("{}: {e}", kind.name));
             let path = layout.path();
             assert!(path.length() > 5.0, "{}", kind.name);
             // one unit of arc per unit of arc

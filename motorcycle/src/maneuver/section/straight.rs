@@ -1,7 +1,7 @@
 //! Straight on.
 
 use super::{Layout, SectionDescription};
-use mbody::description::finding::Finding;
+use mbody::description::finding::Findings;
 use mbody::description::quantity::{NonNegativeQuantity, dimension::Length};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -18,7 +18,7 @@ impl SectionDescription for Straight {
     const KIND: &'static str = "straight";
     const ABOUT: &'static str = "straight on";
     const EXAMPLE: &'static str = "{ length: 50 m }";
-    fn lay(self, path: &mut Layout) -> Result<(), Finding> {
+    fn lay(self, path: &mut Layout) -> Result<(), Findings> {
         path.straight(self.length.si());
         Ok(())
     }

@@ -6,7 +6,7 @@
 //! Source: differential geometry; C. de Boor, *A Practical Guide to Splines* (chordal parameter). Range: points denser than the radii they turn by.
 
 use super::{Layout, SectionDescription};
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::Quantity;
 use mbody::description::quantity::dimension::{Curvature, Length};
 use mbody::scalar::spline::{CubicSpline, Ends};
@@ -27,8 +27,8 @@ impl SectionDescription for ThroughPoints {
     const KIND: &'static str = "through_points";
     const ABOUT: &'static str = "a path through points, or by its curvature over arc length";
     const EXAMPLE: &'static str = "{ points: [[0 m, 0 m], [20 m, 0.2 m], [40 m, 1.5 m], [60 m, 3 m], [80 m, 3.4 m]] }";
-    fn lay(self, path: &mut Layout) -> Result<(), Finding> {
-        let wrong = |key: &str, why: String| Finding::error("bad_curve", why).at_path(key);
+    fn lay(self, path: &mut Layout) -> Result<(), Findings> {
+        let wrong = |key: &str, why: String| Findings::from(Finding::error("bad_curve", why).at_path(key));
         match (self.points, self.curvature) {
             (Some(points), None) => {
                 let xy: Vec<(f64, f64)> = points.iter().map(|p| (p.0.si(), p.1.si())).collect();
@@ -43,7 +43,7 @@ impl SectionDescription for ThroughPoints {
                 let curve = CubicSpline::new(&s, &k, Ends::Natural).map_err(|e| wrong("curvature", e.to_string()))?;
                 path.curve(curve);
             }
-            _ => return Err(Finding::error("missing_entry", "one of `points` and `curvature` is needed").at_path("")),
+            _ => return Err(Finding::error("missing_entry", "one of `points` and `curvature` is needed").at_path("").into()),
         }
         Ok(())
     }
