@@ -18,6 +18,8 @@ use std::sync::Arc;
 
 /// Scaled step at which Newton's method has converged.
 const CONVERGED: f64 = 1e-13;
+/// Scaled step below which rounding may be all that is left: stiff rows move accelerations by much for little.
+const ROUNDING: f64 = 1e-9;
 /// Most iterations.
 const MOST_ITERATIONS: usize = 40;
 /// Share of the step before to which a kept matrix must reduce the next one.
@@ -263,7 +265,8 @@ impl Newton {
             for i in (first..n).filter(|&i| !plant.unknowns()[i].differential) {
                 yd[i] = 0.0;
             }
-            if longest <= CONVERGED {
+            // beside convergence: small steps that shrink no more are rounding
+            if longest <= CONVERGED || (longest <= ROUNDING && longest > 0.5 * before) {
                 break;
             }
             // a matrix that does not take off a digit and a half is that of another point
