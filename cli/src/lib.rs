@@ -7,6 +7,7 @@ pub mod animation;
 pub mod arguments;
 pub mod backend;
 pub mod commands;
+pub mod comparison;
 pub mod console;
 pub mod family;
 pub mod figures;

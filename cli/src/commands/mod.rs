@@ -2,6 +2,7 @@
 
 mod check;
 mod comfort;
+mod compare;
 mod dynamics;
 mod frf;
 mod info;
@@ -38,6 +39,7 @@ pub const KINDS: &[Kind] = &[
     linearize::KIND,
     rider::KIND,
     run::KIND,
+    compare::KIND,
     info::KIND,
     check::KIND,
     dynamics::KIND,

@@ -144,7 +144,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
 }
 
 /// A positive quantity behind an option.
-fn positive<D: Dimensioned>(option: &str, text: &str) -> Result<f64, Failure> {
+pub(super) fn positive<D: Dimensioned>(option: &str, text: &str) -> Result<f64, Failure> {
     match parse_quantity(text, D::DIMENSION) {
         Ok(value) if value > 0.0 => Ok(value),
         Ok(value) => {
@@ -167,7 +167,7 @@ fn tolerance(text: &str) -> Result<f64, Failure> {
 }
 
 /// Sampling times: whole periods, and the end.
-fn times(duration: &str, rate: Option<&str>) -> Result<Vec<f64>, Failure> {
+pub(super) fn times(duration: &str, rate: Option<&str>) -> Result<Vec<f64>, Failure> {
     let end = positive::<Time>("duration", duration)?;
     let count = match rate {
         Some(rate) => end * positive::<Frequency>("rate", rate)?,

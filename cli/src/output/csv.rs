@@ -6,11 +6,16 @@
 //! models one for every entry that is not zero, frequency responses one for every frequency. With `--versus`, a first column `variant` tells the rows apart.
 
 use super::report::{Beside, Report};
-use super::{Kind, Options, comfort, history, linear, modes, responses, rider};
+use super::{Kind, Options, comfort, comparison, history, linear, modes, responses, rider};
 use std::io;
 
-pub(super) const KIND: Kind =
-    Kind { name: "csv", about: "one line per point, SI units and radians", write, write_history: history::csv::write };
+pub(super) const KIND: Kind = Kind {
+    name: "csv",
+    about: "one line per point, SI units and radians",
+    write,
+    write_history: history::csv::write,
+    write_comparison: comparison::write_csv,
+};
 
 fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     match &report.beside {

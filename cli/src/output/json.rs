@@ -3,13 +3,18 @@
 //! A value that is not finite is `null`; `signals` is empty where nothing was computed.
 
 use super::report::{Beside, Point, Report};
-use super::{Kind, Options, comfort, history, linear, modes, responses, rider};
+use super::{Kind, Options, comfort, comparison, history, linear, modes, responses, rider};
 use problem::Ending;
 use serde_json::{Map, Value, json};
 use std::io;
 
-pub(super) const KIND: Kind =
-    Kind { name: "json", about: "one JSON object, SI units and radians", write, write_history: history::json::write };
+pub(super) const KIND: Kind = Kind {
+    name: "json",
+    about: "one JSON object, SI units and radians",
+    write,
+    write_history: history::json::write,
+    write_comparison: comparison::write_json,
+};
 
 fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, &object(report))?;

@@ -8,6 +8,7 @@
 
 mod axes;
 pub mod comfort;
+pub mod comparison;
 mod csv;
 mod history;
 mod json;
@@ -47,6 +48,8 @@ pub struct Kind {
     pub write: Writer<Report>,
     /// Writes a motion over time.
     pub write_history: Writer<History>,
+    /// Writes a comparison of methods.
+    pub write_comparison: Writer<comparison::Comparison>,
 }
 
 /// Writes a result in one format.

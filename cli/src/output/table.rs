@@ -4,12 +4,17 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Beside, Point, Report};
-use super::{Angles, Kind, Options, comfort, history, linear, modes, responses, rider, versus};
+use super::{Angles, Kind, Options, comfort, comparison, history, linear, modes, responses, rider, versus};
 use problem::Ending;
 use std::io;
 
-pub(super) const KIND: Kind =
-    Kind { name: "table", about: "aligned text with units, angles in degrees", write, write_history: history::table::write };
+pub(super) const KIND: Kind = Kind {
+    name: "table",
+    about: "aligned text with units, angles in degrees",
+    write,
+    write_history: history::table::write,
+    write_comparison: comparison::write_table,
+};
 
 /// What a table of several points shows of the signals that exist, where the user does not choose.
 const PREFERRED: [&str; 7] = [

@@ -1,0 +1,205 @@
+//! The same problem by several methods: motions by every integrator and tolerance, sweeps of steady states by every solver.
+
+use crate::output::comparison::{Comparison, Row};
+use crate::output::{History, Progress};
+use crate::{Failure, backend, maneuver, motion, plan, steady};
+use mbody::dynamics::System;
+use motorcycle::maneuver::Maneuver;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The reference: a method of high order at a tolerance near rounding, then what else may do.
+const REFERENCES: [(&str, f64); 3] = [("erk", 1e-11), ("ida", 1e-10), ("cvode", 1e-10)];
+
+/// A backend in a form of the problem.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contender {
+    /// Name of the backend.
+    pub backend: String,
+    /// Formulation of the constraints, for the implicit form.
+    pub formulation: Option<String>,
+}
+
+/// A motion to be computed many times.
+#[derive(Debug)]
+pub struct Motion<'a> {
+    /// What is common to all.
+    pub request: motion::Request,
+    /// The system.
+    pub system: &'a Arc<System>,
+    /// Name of the model.
+    pub model: &'a str,
+    /// Who rides.
+    pub maneuver: Option<Maneuver>,
+}
+
+impl Motion<'_> {
+    fn run(&self, contender: &Contender, relative_tolerance: f64) -> Result<History, Failure> {
+        let request = motion::Request {
+            backend: contender.backend.clone(),
+            formulation: contender.formulation.clone(),
+            relative_tolerance,
+            ..self.request.clone()
+        };
+        let ride = self.maneuver.clone().map(|m| maneuver::ride(m, self.system)).transpose()?;
+        motion::run(&request, self.system, self.model, ride)
+    }
+
+    /// All contenders at all tolerances, each `repeats` times, and how far they are from a reference.
+    ///
+    /// # Errors
+    /// The motion cannot start.
+    pub fn compare(&self, contenders: &[Contender], tolerances: &[f64], repeats: usize) -> Result<Comparison, Failure> {
+        let progress = Progress::new("compare", contenders.len() * tolerances.len() + 1);
+        let mut warnings = Vec::new();
+        let mut reference: Option<(History, String)> = None;
+        for (backend, tolerance) in REFERENCES {
+            let found = self.run(&Contender { backend: backend.to_owned(), formulation: None }, tolerance)?;
+            let reached = found.outcome.because.is_none();
+            let better = reference.as_ref().is_none_or(|(kept, _)| found.time.len() > kept.time.len());
+            if reached || better {
+                reference = Some((found, format!("{backend} at {tolerance:e}")));
+            }
+            if reached {
+                break;
+            }
+        }
+        progress.advance();
+        let Some((reference, name)) = reference else { return Err(Failure::Argument("no method is known".to_owned())) };
+        if let Some(because) = &reference.outcome.because {
+            warnings.push(format!("the reference itself ends early: {because}"));
+        }
+        let mut rows = Vec::new();
+        for contender in contenders {
+            for &tolerance in tolerances {
+                rows.push(self.row(contender, tolerance, repeats, &reference)?);
+                progress.advance();
+            }
+        }
+        let end = self.request.times.last().copied().unwrap_or_default();
+        let what = self.maneuver.as_ref().map_or_else(|| format!("motion of {end} s"), |m| m.name.clone());
+        Ok(Comparison { model: self.model.to_owned(), problem: what, reference: name, in_time: true, rows, warnings })
+    }
+
+    fn row(&self, contender: &Contender, tolerance: f64, repeats: usize, reference: &History) -> Result<Row, Failure> {
+        let mut walls = Vec::with_capacity(repeats);
+        let mut last = self.run(contender, tolerance)?;
+        walls.push(last.outcome.wall);
+        for _ in 1..repeats {
+            last = self.run(contender, tolerance)?;
+            walls.push(last.outcome.wall);
+        }
+        let (least, most) = walls.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(*w), b.max(*w)));
+        let s = &last.outcome.statistics;
+        Ok(Row {
+            backend: contender.backend.clone(),
+            form: last.outcome.formulation.to_owned(),
+            relative_tolerance: tolerance,
+            ending: last.outcome.ending.clone(),
+            because: last.outcome.because.clone(),
+            wall: least,
+            spread: most / least - 1.0,
+            real_time_factor: s.time / least,
+            steps: s.steps,
+            rejected: s.rejected,
+            residuals: s.residuals,
+            jacobians: s.jacobians,
+            solves: s.iterations,
+            error: self.difference(&last, reference),
+            energy_drift: energy_drift(&last),
+            constraint_drift: last.outcome.drift.position.as_ref().map_or(f64::NAN, |w| w.off.by),
+        })
+    }
+
+    /// Largest difference of coordinates and velocities at common samples, in units of `nominal + |value|`.
+    fn difference(&self, found: &History, reference: &History) -> f64 {
+        let common = found.time.iter().zip(&reference.time).take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs()).count();
+        if common < 2 {
+            return f64::NAN;
+        }
+        let mut worst = 0.0_f64;
+        for unknown in self.system.unknowns() {
+            let column = |h: &History| h.signals.iter().position(|s| s.name == unknown.signal.name);
+            if let (Some(a), Some(b)) = (column(found), column(reference)) {
+                let off = (0..common).map(|k| {
+                    let (x, y) = (found.columns[a][k], reference.columns[b][k]);
+                    (x - y).abs() / (unknown.nominal + y.abs())
+                });
+                worst = off.fold(worst, f64::max);
+            }
+        }
+        worst
+    }
+}
+
+/// Largest change of the energy, as a share of its largest size, where no power goes in or out.
+fn energy_drift(history: &History) -> f64 {
+    let column = |name: &str| history.signals.iter().position(|s| s.name == name).map(|k| &history.columns[k]);
+    let (Some(energy), Some(supplied), Some(dissipated)) = (column(motion::ENERGY), column(motion::SUPPLIED), column(motion::DISSIPATED))
+    else {
+        return f64::NAN;
+    };
+    let size = energy.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
+    let idle = supplied.iter().chain(dissipated.iter()).all(|p| p.abs() <= 1e-9 * size.max(1e-9));
+    match idle && size > 0.0 {
+        true => energy.iter().map(|e| (e - energy[0]).abs()).fold(0.0, f64::max) / size,
+        false => f64::NAN,
+    }
+}
+
+/// A sweep of steady states by every solver.
+///
+/// # Errors
+/// The request as a whole is impossible.
+pub fn sweeps(
+    request: &plan::Request,
+    system: &Arc<System>,
+    model: &str,
+    backends: &[String],
+    repeats: usize,
+) -> Result<Comparison, Failure> {
+    let mut rows = Vec::new();
+    let mut reference: Option<steady::Steady> = None;
+    for name in backends {
+        let mut walls = Vec::new();
+        let mut found = None;
+        for _ in 0..repeats {
+            let began = Instant::now();
+            found = Some(steady::run(request, system, name, "compare")?);
+            walls.push(began.elapsed().as_secs_f64());
+        }
+        let Some(found) = found else { continue };
+        let (least, most) = walls.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(*w), b.max(*w)));
+        let missed = found.points.iter().filter(|p| p.values.is_empty()).count();
+        let error = reference.as_ref().map_or(f64::NAN, |reference| {
+            let pairs = found.points.iter().zip(&reference.points).filter(|(a, b)| !a.values.is_empty() && !b.values.is_empty());
+            let off = pairs.flat_map(|(a, b)| {
+                system.unknowns().iter().enumerate().map(|(k, u)| (a.values[k] - b.values[k]).abs() / (u.nominal + b.values[k].abs()))
+            });
+            off.fold(0.0, f64::max)
+        });
+        rows.push(Row {
+            backend: name.clone(),
+            form: "algebraic".to_owned(),
+            relative_tolerance: f64::NAN,
+            ending: if missed < found.points.len() { "reached" } else { "not_converged" }.to_owned(),
+            because: (missed == found.points.len()).then(|| "no point was reached".to_owned()),
+            wall: least,
+            spread: most / least - 1.0,
+            real_time_factor: f64::NAN,
+            steps: found.points.len(),
+            rejected: missed,
+            residuals: 0,
+            jacobians: 0,
+            solves: found.points.iter().map(|p| p.iterations).sum(),
+            error,
+            energy_drift: f64::NAN,
+            constraint_drift: f64::NAN,
+        });
+        reference.get_or_insert(found);
+    }
+    let problem = format!("{} steady states", rows.first().map_or(0, |r| r.steps));
+    let first = backends.first().map_or_else(|| backend::ALGEBRAIC[0].name.to_owned(), Clone::clone);
+    let warnings = vec!["all cores take part in a sweep of steady states; `RAYON_NUM_THREADS=1` makes it one".to_owned()];
+    Ok(Comparison { model: model.to_owned(), problem, reference: first, in_time: false, rows, warnings })
+}
