@@ -22,6 +22,7 @@ pub mod report;
 pub mod responses;
 pub mod results;
 pub mod rider;
+mod road;
 pub mod sensitivities;
 pub mod small_motions;
 pub mod steady;

@@ -3,14 +3,20 @@
 //! A maneuver is a file of its own. Its path is a sequence of sections, each one kind ([`section::KINDS`]); its speed is constant, over time or along the path. Where
 //! nobody rides, the inputs stay at those of the steady state.
 
+mod columns;
+mod input;
 mod path;
 pub mod section;
 mod speed;
 
-pub use path::{Layout, Path, Place, Twice};
+pub(crate) use columns::columns;
+pub use input::{Amount, Moving, Piece};
+pub use path::{Layout, Path, Place, Progress, Twice};
 pub use section::{SectionDescription, SectionKind};
 pub use speed::Speed;
 
+use crate::road::{Relief, relief};
+use mbody::description::Library;
 use mbody::description::document::Document;
 use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::{Length, Speed as SpeedDimension, Time, Torque};
@@ -22,6 +28,7 @@ use schemars::generate::SchemaSettings;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Where to ride, how fast, and what disturbs.
 #[derive(Clone, Debug)]
@@ -99,6 +106,10 @@ pub struct Maneuver {
     pub about: String,
     /// Path, speed and disturbances.
     pub course: Course,
+    /// The road along the path; none where it is level.
+    pub road: Option<Arc<dyn Relief>>,
+    /// Inputs over time that nobody commands.
+    pub inputs: Vec<Moving>,
     /// Who rides.
     pub control: Control,
     /// How the rider is made.
@@ -161,8 +172,12 @@ struct ManeuverDescription {
     speed_along_path: Option<Vec<(NonNegativeQuantity<Length>, NonNegativeQuantity<SpeedDimension>)>>,
     /// The path: sections one after the other, each one kind with its parameters.
     path: Vec<Value>,
+    /// The road along the path, one kind with its parameters; level where left out.
+    road: Option<Value>,
     /// Torques at the bar beside those of the rider.
     torque_pulses: Option<Vec<PulseDescription>>,
+    /// Inputs over time, each added to the value that it has at the start: wind, and what no rider commands.
+    inputs: Option<Vec<input::InputDescription>>,
     /// Who rides: `rider` (where left out) or `none`.
     #[serde(default)]
     control: Control,
@@ -179,31 +194,36 @@ struct ManeuverDescription {
 /// The JSON Schema (draft 2020-12) of maneuvers.
 pub fn schema() -> Value {
     let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let sections: Vec<Value> = section::KINDS
-        .iter()
-        .map(|k| {
-            json!({
-                "type": "object",
-                "description": k.about,
-                "properties": { k.name: (k.schema)(&mut generator) },
-                "required": [k.name],
-                "additionalProperties": false
-            })
+    let one = |about: &str, name: &str, parameters: schemars::Schema| {
+        json!({
+            "type": "object",
+            "description": about,
+            "properties": { name: parameters },
+            "required": [name],
+            "additionalProperties": false
         })
-        .collect();
+    };
+    let sections: Vec<Value> = section::KINDS.iter().map(|k| one(k.about, k.name, (k.schema)(&mut generator))).collect();
+    let roads: Vec<Value> = relief::KINDS.iter().map(|k| one(k.about, k.name, (k.schema)(&mut generator))).collect();
     let mut root = generator.root_schema_for::<ManeuverDescription>().to_value();
     root["title"] = json!("FastBike maneuver");
     root["properties"]["path"]["items"] = json!({ "oneOf": sections });
     root["properties"]["path"]["minItems"] = json!(1);
+    let about = root["properties"]["road"]["description"].clone();
+    root["properties"]["road"] = json!({ "description": about, "oneOf": roads });
     root
 }
 
-/// Reads a maneuver; `speed` (m/s) replaces its speed where it is given.
+/// Reads a maneuver with `(path, value)` overrides; the files that it names come from the library.
 ///
 /// # Errors
 /// Everything that is wrong, each at its line.
-pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &mut Findings) -> Option<Maneuver> {
-    let mut document = match Document::parse(file, text) {
+pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], findings: &mut Findings) -> Option<Maneuver> {
+    let Some(text) = library.text(file) else {
+        findings.push(Finding::error("missing_file", format!("file `{file}` cannot be read as text")));
+        return None;
+    };
+    let mut document = match Document::parse(file, &text) {
         Ok(document) => document,
         Err(errors) => {
             findings.extend(errors);
@@ -227,7 +247,7 @@ pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &m
     if findings.has_errors() {
         return None;
     }
-    let written: ManeuverDescription = match document.read("") {
+    let mut written: ManeuverDescription = match document.read("") {
         Ok(written) => written,
         Err(errors) => {
             findings.extend(errors);
@@ -236,12 +256,25 @@ pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &m
     };
     let mut layout = Layout::default();
     for (k, entry) in written.path.iter().enumerate() {
-        let Some((name, value)) = entry.as_object().and_then(|o| o.iter().next()) else { continue };
+        let Some((name, value)) = single(entry) else { continue };
         let Some(kind) = section::KINDS.iter().find(|k| k.name == name) else { continue };
         if let Err(finding) = (kind.lay)(value, &mut layout) {
-            let below = if finding.path.is_empty() { String::new() } else { format!(".{}", finding.path) };
-            let path = format!("path.{k}.{name}{below}");
-            findings.push(document.locate(finding.at_path(path)));
+            findings.push(document.locate(below(&format!("path.{k}.{name}"), finding)));
+        }
+    }
+    let mut road = None;
+    let of_road = written.road.as_ref().and_then(single);
+    if let Some((kind, value)) = of_road.and_then(|(name, value)| Some((relief::KINDS.iter().find(|k| k.name == name)?, value))) {
+        match (kind.make)(value, library) {
+            Ok(made) => road = made,
+            Err(finding) => findings.push(document.locate(below(&format!("road.{}", kind.name), finding))),
+        }
+    }
+    let mut inputs = Vec::new();
+    for (k, entry) in written.inputs.take().into_iter().flatten().enumerate() {
+        match entry.moving() {
+            Ok(moving) => inputs.push(moving),
+            Err(finding) => findings.push(document.locate(below(&format!("inputs.{k}"), finding))),
         }
     }
     let speed = match target(&written) {
@@ -263,11 +296,24 @@ pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &m
         name: written.name,
         about: written.about.unwrap_or_default(),
         course: Course { path: layout.path(), speed: speed?, torque_pulses },
+        road,
+        inputs,
         control: written.control,
         rider: written.rider,
         until: written.until,
         duration: written.duration.map(|d| d.si()),
     })
+}
+
+/// The only entry of an object.
+fn single(entry: &Value) -> Option<(&str, &Value)> {
+    entry.as_object()?.iter().next().map(|(name, value)| (name.as_str(), value))
+}
+
+/// A finding of a part of the maneuver, at its path from the whole.
+fn below(path: &str, finding: Finding) -> Finding {
+    let path = if finding.path.is_empty() { path.to_owned() } else { format!("{path}.{}", finding.path) };
+    finding.at_path(path)
 }
 
 /// The target speed; where it is not a curve, the key and why.

@@ -1,7 +1,6 @@
 //! The laws of the virtual rider, generic over the scalar.
 //!
-//! **Where it is.** Arc length s on the path, a state: `ṡ = (V_x cos ψ_e − V_y sin ψ_e)/(1 − κ e) + k_s e_t`, with the offset e (positive to the left of the
-//! path), the heading error `ψ_e = ψ − ψ_p(s)` and the distance e_t by which the base point is ahead of s along the path.
+//! **Where it is.** Arc length s on the path, a state, offset e (positive to the left of the path) and heading error ψ_e: [`crate::maneuver::Path::progress`].
 //!
 //! **Steering.** `τ = τ₀ − K (x − x₀) − K_e e − K_ψ (ψ_e + β₀) + Σ wᵢ (κ(s + V tᵢ) − κ₀)`: steady state x₀, τ₀ with its slip angle `β₀ = atan(V_y/V_x)`, gains K and
 //! weights w all of the present speed and of the lateral acceleration `a₀ = V² κ(s + V t₀)`, `κ₀ = a₀/V²`. The torque is bounded smoothly by
@@ -18,11 +17,9 @@
 
 use super::Rider;
 use super::schedule::Row;
+use crate::maneuver::Progress;
 use mbody::scalar::Real;
 use mbody::scalar::smooth::{ramp, sabs};
-
-/// Rate at which the arc length follows the base point, 1/s.
-const CATCH_UP: f64 = 5.0;
 
 /// Wheel torque over which drive and brakes change over, N m.
 const CHANGE_OVER: f64 = 10.0;
@@ -68,15 +65,8 @@ impl Rider {
         let mut reply = Reply::default();
         // where it is on the path
         let s = x[0];
-        let place = self.course.path.at(s);
-        let (sine, cosine) = place.heading.sin_cos();
-        let (dx, dy) = (z[0] - place.x, z[1] - place.y);
-        let (ahead, offset) = (cosine * dx + sine * dy, cosine * dy - sine * dx);
-        let error = z[2] - place.heading;
-        let lateral_speed = z[4];
-        let (se, ce) = error.sin_cos();
-        let along = (z[3] * ce - lateral_speed * se) / (-(place.curvature * offset) + 1.0);
-        reply.rates[0] = along + ahead * CATCH_UP;
+        let Progress { place, offset, heading_error: error, along, rate } = self.course.path.progress(s, [z[0], z[1], z[2], z[3], z[4]]);
+        reply.rates[0] = rate;
         // steering
         let n = self.layout.feedback;
         let entry = |k: usize| row.entry(k, at);

@@ -6,6 +6,7 @@
 mod law;
 pub mod schedule;
 
+use crate::chain_rule::along_directions;
 use crate::maneuver::Course;
 use law::MOST;
 use mbody::scalar::{Lanes, SystemScalar};
@@ -281,18 +282,7 @@ impl Controller for Rider {
     ) -> Result<(), EvalError> {
         self.answer(time, measured, states, answer)?;
         self.differentiate(time, measured, states);
-        let m = measured.len();
-        let mut row = 0;
-        for part in [along.commands, along.rates, along.outputs] {
-            for i in 0..part.rows() {
-                for j in 0..part.columns() {
-                    let by_z: f64 = by_measured.column(j).iter().enumerate().map(|(k, d)| self.jacobian[(row, k)] * d).sum();
-                    let by_x: f64 = by_states.column(j).iter().enumerate().map(|(k, d)| self.jacobian[(row, m + k)] * d).sum();
-                    part[(i, j)] = by_z + by_x;
-                }
-                row += 1;
-            }
-        }
+        along_directions(&self.jacobian, (by_measured, by_states), along);
         Ok(())
     }
 }
