@@ -11,6 +11,7 @@ pub mod console;
 pub mod family;
 pub mod figures;
 pub mod interrupt;
+mod lateral;
 pub mod library;
 pub mod maneuver;
 pub mod model;

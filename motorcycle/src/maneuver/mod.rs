@@ -132,11 +132,25 @@ struct PulseDescription {
     duration: PositiveQuantity<Time>,
 }
 
+/// How a rider steers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LateralLaw {
+    /// Optimal feedback of all states and of the way ahead.
+    #[default]
+    Preview,
+    /// Two loops: the path asks for lean, lean asks for torque.
+    Pid,
+}
+
 /// Rider of a maneuver: what counts as much as what, and human limits.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RiderDescription {
-    /// Offset from the path that counts as much as the other values here; 0.15 m where left out.
+    /// How the rider steers: `preview` (where left out) or `pid`.
+    #[serde(default)]
+    pub lateral: LateralLaw,
+    /// Offset from the path that counts as much as the other values here; 0.15 m where left out. For `preview`, as `heading`.
     pub offset: Option<PositiveQuantity<Length>>,
     /// Heading error that counts as much; 0.05 rad where left out.
     pub heading: Option<PositiveQuantity<mbody::description::quantity::dimension::Angle>>,
@@ -144,7 +158,7 @@ pub struct RiderDescription {
     pub torque: Option<PositiveQuantity<Torque>>,
     /// Greatest steering torque; 150 N m where left out.
     pub greatest_torque: Option<PositiveQuantity<Torque>>,
-    /// How far the rider looks ahead; as far as it matters where left out.
+    /// How far the rider looks ahead; as far as it matters where left out (2 s for `pid`).
     pub preview: Option<PositiveQuantity<Time>>,
     /// Reaction time; none where left out.
     pub delay: Option<PositiveQuantity<Time>>,
