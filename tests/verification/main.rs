@@ -16,6 +16,7 @@ mod ride;
 mod roads;
 mod sensitivity;
 mod trim;
+mod two_loops;
 
 use validation::evidence;
 
@@ -36,6 +37,7 @@ fn the_table_of_evidence_is_up_to_date() {
             sensitivity::EVIDENCE,
             ride::EVIDENCE,
             roads::EVIDENCE,
+            two_loops::EVIDENCE,
         ],
     );
 }
