@@ -19,6 +19,7 @@ pub mod motion;
 pub mod output;
 pub mod plan;
 pub mod plot;
+mod replay;
 pub mod report;
 pub mod responses;
 pub mod results;

@@ -3,6 +3,7 @@
 use crate::Failure;
 use crate::arguments::argument;
 use crate::library;
+use crate::replay::replay;
 use crate::rider::Task;
 use crate::road;
 use mbody::description::finding::{Finding, Findings};
@@ -28,6 +29,8 @@ pub struct Ride {
     pub inputs: Vec<Moving>,
     /// Longest step with which nothing on the road is passed over, s.
     pub longest_step: f64,
+    /// When it ends at the latest, s.
+    pub end: f64,
     /// What is the end of it, where there is a rider to tell.
     pub goal: Option<Limit>,
     /// What the reader should know.
@@ -36,7 +39,14 @@ pub struct Ride {
 
 impl Default for Ride {
     fn default() -> Self {
-        Self { controllers: Vec::new(), inputs: Vec::new(), longest_step: f64::INFINITY, goal: None, warnings: Vec::new() }
+        Self {
+            controllers: Vec::new(),
+            inputs: Vec::new(),
+            longest_step: f64::INFINITY,
+            end: f64::INFINITY,
+            goal: None,
+            warnings: Vec::new(),
+        }
     }
 }
 
@@ -62,24 +72,29 @@ pub fn read(name: &str, changes: &[String]) -> Result<Maneuver, Failure> {
     }
 }
 
-/// Makes the rider and the road of a maneuver.
+/// Makes the rider and the road of the maneuver of this name.
 ///
 /// # Errors
 /// The vehicle cannot be ridden, or cannot feel the road.
-pub fn ride(maneuver: Maneuver, system: &Arc<System>) -> Result<Ride, Failure> {
+pub fn ride(name: &str, maneuver: Maneuver, system: &Arc<System>) -> Result<Ride, Failure> {
     let course = &maneuver.course;
     let road = maneuver.road.as_ref().map(|relief| road::under_wheels(relief, &course.path, system)).transpose()?;
     let fastest = course.speed.range().1.max(1.0);
     let longest_step = maneuver.road.map_or(f64::INFINITY, |relief| relief.shortest() / (STEPS_PER_BUMP * fastest));
     let mut controllers: Vec<Box<dyn Controller>> = road.into_iter().map(|road| Box::new(road) as Box<dyn Controller>).collect();
+    if !course.torque_pulses.is_empty() && (maneuver.control == Control::None || maneuver.replay.is_some()) {
+        let finding = Finding::error("no_rider", "`torque_pulses` are torques of a rider, and `control: none` and `replay` have none");
+        return Err(finding.with_hint("`--signals FILE.csv` gives inputs over time").into());
+    }
     if maneuver.control == Control::None {
-        if !course.torque_pulses.is_empty() {
-            let finding = Finding::error("no_rider", "`torque_pulses` are torques of a rider, and `control: none` has none");
-            return Err(finding.with_hint("`--signals FILE.csv` gives inputs over time").into());
-        }
-        return Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, goal: None, warnings: Vec::new() });
+        return Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, ..Ride::default() });
     }
     let task = Task { system, backend: "kinsol", wishes: &maneuver.rider, front_brake_share: FRONT_BRAKE_SHARE };
+    if let Some(written) = &maneuver.replay {
+        let (replay, end) = replay(written, &library::maneuver(name)?, course.speed.first(), &task)?;
+        controllers.push(Box::new(replay));
+        return Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, end, ..Ride::default() });
+    }
     let end = course.path.length();
     let designed = task.design(maneuver.course)?;
     let goal = Limit {
@@ -91,5 +106,5 @@ pub fn ride(maneuver: Maneuver, system: &Arc<System>) -> Result<Ride, Failure> {
         about: "the path ends".into(),
     };
     controllers.push(Box::new(designed.rider));
-    Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, goal: Some(goal), warnings: designed.warnings })
+    Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, goal: Some(goal), warnings: designed.warnings, ..Ride::default() })
 }

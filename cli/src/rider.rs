@@ -363,7 +363,7 @@ fn is_held(name: &str, base: &str) -> bool {
 }
 
 /// Name of the base of a vehicle that somebody may ride.
-fn ridable(plant: &TreePlant) -> Result<String, Failure> {
+pub(crate) fn ridable(plant: &TreePlant) -> Result<String, Failure> {
     let missing = || Finding::error("no_vehicle_base", "this model has no vehicle base, so nobody can ride it");
     base_name(plant).ok_or_else(|| missing().into())
 }
@@ -377,7 +377,7 @@ fn line(point: &Point, plant: &TreePlant, base: &str) -> Line {
 }
 
 /// What a rider can read and command on this vehicle.
-fn reins(plant: &TreePlant, base: &str) -> Result<Reins, Failure> {
+pub(crate) fn reins(plant: &TreePlant, base: &str) -> Result<Reins, Failure> {
     let input = |name: &str| plant.inputs().iter().any(|i| i.signal.name == name);
     if !input("steer.torque") {
         let finding = Finding::error("missing_input", "this model has no input `steer.torque`, so nobody can steer it");

@@ -3,6 +3,7 @@
 use analyses::ClosedLoop;
 use analyses::transient::{Driven, Start, Transient, evenly};
 use fastbike::rider::{Designed, Task};
+use mbody::description::Library;
 use mbody::dynamics::Formulation;
 use mbody::dynamics::TreePlant;
 use motorcycle::maneuver::{Course, LateralLaw, Layout, RiderDescription, Speed, section};
@@ -27,11 +28,20 @@ pub const EVIDENCE: &[Row] = validation::evidence![
     ),
 ];
 
+struct Nothing;
+
+impl Library for Nothing {
+    fn text(&self, _: &str) -> Option<std::borrow::Cow<'_, str>> {
+        None
+    }
+}
+
 fn designed(state: &State, speed: f64, path: &[(&str, String)]) -> Designed {
     let mut layout = Layout::default();
     for (kind, parameters) in path {
         let kind = section::KINDS.iter().find(|k| k.name == *kind).expect("a kind");
-        (kind.lay)(&serde_yaml::from_str(parameters).expect("parameters"), &mut layout).unwrap_or_else(|e| panic!("{}", e.message));
+        (kind.lay)(&serde_yaml::from_str(parameters).expect("parameters"), &mut layout, &Nothing)
+            .unwrap_or_else(|e| panic!("{}", e.message));
     }
     let course = Course { path: layout.path(), speed: Speed::Constant(speed), torque_pulses: Vec::new() };
     let wishes = RiderDescription { lateral: LateralLaw::Pid, ..RiderDescription::default() };

@@ -97,7 +97,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     }
     // all levels of the constraints stand in the rows of GGL, so the explicit form is judged by them
     let tree = TreePlant::in_formulation(system.clone(), if explicit { Formulation::Ggl } else { formulation });
-    let Ride { controllers, inputs, longest_step: max_step, goal, warnings: of_ride } = ride.unwrap_or_default();
+    let Ride { controllers, inputs, longest_step: max_step, end, goal, warnings: of_ride } = ride.unwrap_or_default();
     warnings.extend(of_ride);
     let mut plant = ClosedLoop::new(tree, controllers).map_err(|e| Finding::error("signal_clash", e.to_string()))?;
     let mut beginning = match &request.steady {
@@ -110,7 +110,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     }
     beginning.give(&request.given, &plant)?;
     let recorded = recorded(&request.record, &plant, system)?;
-    let mut transient = Transient::new(&plant, request.times.clone());
+    let mut transient = Transient::new(&plant, request.times.iter().copied().filter(|t| *t <= end).collect());
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
         absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),

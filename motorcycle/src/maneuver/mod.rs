@@ -9,7 +9,7 @@ mod path;
 pub mod section;
 mod speed;
 
-pub(crate) use columns::columns;
+pub use columns::columns;
 pub use input::{Amount, Moving, Piece};
 pub use path::{Layout, Path, Place, Progress, Twice};
 pub use section::{SectionDescription, SectionKind};
@@ -19,8 +19,8 @@ use crate::road::{Relief, relief};
 use mbody::description::Library;
 use mbody::description::document::Document;
 use mbody::description::finding::{Finding, Findings};
-use mbody::description::quantity::dimension::{Length, Speed as SpeedDimension, Time, Torque};
-use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
+use mbody::description::quantity::dimension::{Length, Number, Speed as SpeedDimension, Time, Torque};
+use mbody::description::quantity::{Fraction, NonNegativeQuantity, PositiveQuantity, Quantity};
 use mbody::description::schema::Schema;
 use mbody::scalar::Pchip;
 use schemars::JsonSchema;
@@ -114,6 +114,8 @@ pub struct Maneuver {
     pub control: Control,
     /// How the rider is made.
     pub rider: RiderDescription,
+    /// The record that is repeated instead of a rider.
+    pub replay: Option<ReplayDescription>,
     /// When it is over, beside the end of the path: `SIGNAL>VALUE`.
     pub until: Vec<String>,
     /// Longest time, s; none: what the path takes, and a little more.
@@ -166,6 +168,16 @@ pub struct RiderDescription {
     pub muscles: Option<PositiveQuantity<mbody::description::quantity::dimension::AngularSpeed>>,
 }
 
+/// A recorded ride: its torques, and a weak feedback of what differs from it.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReplayDescription {
+    /// CSV file beside the maneuver: that of an earlier run, or measured under the same names.
+    pub file: String,
+    /// Share of the gains of the rider with preview, 0 to 1; 0.2 where left out.
+    pub gain: Option<Quantity<Number, Fraction>>,
+}
+
 /// The written form of a maneuver.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -198,6 +210,8 @@ struct ManeuverDescription {
     /// How the rider is made.
     #[serde(default)]
     rider: RiderDescription,
+    /// A recorded ride that is repeated instead of a rider.
+    replay: Option<ReplayDescription>,
     /// When it is over, beside the end of the path: conditions `SIGNAL>VALUE` or `SIGNAL<VALUE`.
     #[serde(default)]
     until: Vec<String>,
@@ -272,7 +286,7 @@ pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], f
     for (k, entry) in written.path.iter().enumerate() {
         let Some((name, value)) = single(entry) else { continue };
         let Some(kind) = section::KINDS.iter().find(|k| k.name == name) else { continue };
-        if let Err(finding) = (kind.lay)(value, &mut layout) {
+        if let Err(finding) = (kind.lay)(value, &mut layout, library) {
             findings.push(document.locate(below(&format!("path.{k}.{name}"), finding)));
         }
     }
@@ -314,6 +328,7 @@ pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], f
         inputs,
         control: written.control,
         rider: written.rider,
+        replay: written.replay,
         until: written.until,
         duration: written.duration.map(|d| d.si()),
     })

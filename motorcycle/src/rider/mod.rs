@@ -6,6 +6,7 @@
 pub mod cascade;
 mod law;
 mod preview;
+pub mod replay;
 pub mod schedule;
 
 use crate::chain_rule::along_directions;

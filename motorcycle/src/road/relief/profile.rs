@@ -47,15 +47,16 @@ impl ReliefDescription for Profile {
     const ABOUT: &'static str = "a road by its heights at stations along the path";
     const EXAMPLE: &'static str = "{ points: [[10 m, 0 m], [15 m, 20 mm], [20 m, -5 mm], [30 m, 10 mm]] }";
     fn relief(self, library: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
-        let (key, [stations, heights]) = match (self.points, self.file) {
+        let (key, stations, heights): (_, Vec<f64>, Vec<f64>) = match (self.points, self.file) {
             (Some(points), None) => {
                 let (stations, heights) = points.iter().map(|p| (p.0.si(), p.1.si())).unzip();
-                ("points", [stations, heights])
+                ("points", stations, heights)
             }
-            (None, Some(file)) => (
-                "file",
-                columns(library, &file, [("station", Length::DIMENSION), ("height", Length::DIMENSION)]).map_err(|e| e.at_path("file"))?,
-            ),
+            (None, Some(file)) => {
+                let length = Some(Length::DIMENSION);
+                let read = columns(library, &file, &[("station", length), ("height", length)]).map_err(|e| e.at_path("file"))?;
+                ("file", read[0].clone(), read[1].clone())
+            }
             _ => return Err(Finding::error("missing_entry", "one of `points` and `file` is needed").at_path("")),
         };
         let first = heights.first().copied().unwrap_or_default();
