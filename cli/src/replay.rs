@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::rider::{Task, reins, ridable};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::Dimension;
 use mbody::description::quantity::Dimensioned;
 use mbody::description::quantity::dimension::Time;
@@ -33,16 +33,18 @@ pub fn replay(written: &ReplayDescription, library: &dyn Library, speed: f64, ta
         let mut all = unknowns.chain(plant.inputs().iter().map(|i| &i.signal));
         all.find(|s| s.name == name).and_then(|s| Dimension::of_unit(&s.unit.replace("^2", "²")))
     };
-    let read = |names: &[String]| -> Result<(Vec<f64>, Vec<Pchip>), Finding> {
+    let read = |names: &[String]| -> Result<(Vec<f64>, Vec<Pchip>), Findings> {
         let time = ("time", Some(Time::DIMENSION));
         let wanted: Vec<_> = std::iter::once(time).chain(names.iter().map(|n| (n.as_str(), unit(n)))).collect();
         let mut read = columns(library, &written.file, &wanted)?.into_iter();
         let times = read.next().unwrap_or_default();
         let curve = |values: Vec<f64>| Pchip::new(&times, &values);
         let curves = read.map(curve).collect::<Result<_, _>>();
-        curves.map(|curves| (times.clone(), curves)).map_err(|e| Finding::error("bad_curve", format!("file `{}`: {e}", written.file)))
+        curves
+            .map(|curves| (times.clone(), curves))
+            .map_err(|e| Finding::error("bad_curve", format!("file `{}`: {e}", written.file)).into())
     };
-    let at = |finding: Finding| finding.at_path("replay.file");
+    let at = |findings: Findings| findings.into_iter().map(|f| f.at_path("replay.file")).collect::<Findings>();
     let (times, then) = read(&measured).map_err(at)?;
     let (_, mut torques) = read(&reins.commands[..1]).map_err(at)?;
     let mut commanded = vec![reins.commands[0].clone()];

@@ -1,15 +1,17 @@
 //! Answers of a vehicle in steady motion to what oscillates: inputs by name, and a road under both wheels.
 
-use crate::Failure;
-use crate::arguments::{argument, unknown_name};
+use crate::arguments::{ModelArguments, argument, unknown_name};
+use crate::model::Loaded;
 use crate::output::Point;
 use crate::output::responses::{PointResponses, Responses};
-use crate::plan::base_name;
-use crate::small_motions::SmallMotions;
+use crate::output::{Beside, Report, Variant};
+use crate::plan::{Request, base_name};
+use crate::small_motions::{FROZEN, SmallMotions, accelerates};
 use crate::steady::Steady;
+use crate::{Context, Failure, model, results, steady};
 use analyses::{Excitation, FrequencyResponse, LinearModel};
 use clap::ValueEnum;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Severity};
 use mbody::dynamics::{System, TreePlant};
 use nalgebra::Complex;
 use problem::Signal;
@@ -185,4 +187,79 @@ pub fn forced(unstable: usize, points: usize) -> Option<String> {
     };
     let motion = "the response there is the motion that whoever stabilizes it has to sustain";
     (unstable > 0).then(|| format!("{which} unstable: {motion}"))
+}
+
+/// What is asked of a model and of its variants.
+#[derive(Clone, Copy, Debug)]
+pub struct Answers<'a> {
+    /// The steady states.
+    pub request: &'a Request,
+    /// Backend of the steady states.
+    pub backend: &'a str,
+    /// What oscillates.
+    pub excited: &'a Excited,
+    /// What answers.
+    pub outputs: &'a [String],
+}
+
+/// Frequencies at a point, Hz.
+type Frequencies<'a> = &'a (dyn Fn(&Point) -> Vec<f64> + Sync);
+
+impl Answers<'_> {
+    /// Steady states of a model and their responses. `what` names the job for the progress bar.
+    ///
+    /// # Errors
+    /// The request as a whole is impossible.
+    pub fn of(&self, loaded: &Loaded, what: &str, frequencies: Frequencies<'_>) -> Result<(Steady, Responses), Failure> {
+        let system = &loaded.assembled.system;
+        let mut steady = steady::run(self.request, system, self.backend, what)?;
+        steady.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(ToString::to_string));
+        if accelerates(self.request.acceleration.as_ref()) {
+            steady.warnings.push(FROZEN.to_owned());
+        }
+        let small = SmallMotions { request: self.request, system, backend: self.backend, residual_tolerance: 1e-6 };
+        let job = Job { steady: &steady, excited: self.excited, outputs: self.outputs };
+        let (responses, unstable) = job.responses(&small, &|point: &Point| frequencies(point));
+        steady.warnings.extend(forced(unstable, steady.points.len()));
+        Ok((steady, responses))
+    }
+
+    /// Adds the same of variants of the model to a report.
+    ///
+    /// # Errors
+    /// A variant that cannot be read, or that lacks an input or a signal.
+    pub fn versus(
+        &self,
+        report: &mut Report,
+        (model, variants): (&ModelArguments, &[String]),
+        context: &Context,
+        frequencies: Frequencies<'_>,
+    ) -> Result<(), Failure> {
+        for variant in variants {
+            let loaded = model::load(&model.variant(variant), context)?;
+            self.excited.check(&loaded.assembled.system)?;
+            check_outputs(self.outputs, &loaded.assembled.system)?;
+            let (steady, responses) = self.of(&loaded, variant, frequencies)?;
+            let points = results::in_order_of(&report.signals, steady);
+            report.variants.push(Variant { name: variant.clone(), points, beside: Beside::Responses(responses) });
+        }
+        Ok(())
+    }
+}
+
+/// The responses of the base, then those of the variants.
+pub fn with_variants<'a>(report: &'a Report, base: &'a Responses) -> Vec<&'a Responses> {
+    let others = report.variants.iter().filter_map(|v| match &v.beside {
+        Beside::Responses(responses) => Some(responses),
+        _ => None,
+    });
+    std::iter::once(base).chain(others).collect()
+}
+
+/// Names of base and variants for the legend of a figure; none where there is only the base.
+pub fn names_of_variants(report: &Report) -> Vec<String> {
+    match report.variants.is_empty() {
+        true => Vec::new(),
+        false => std::iter::once("base".to_owned()).chain(report.variants.iter().map(|v| v.name.clone())).collect(),
+    }
 }

@@ -40,8 +40,7 @@ fn designed(state: &State, speed: f64, path: &[(&str, String)]) -> Designed {
     let mut layout = Layout::default();
     for (kind, parameters) in path {
         let kind = section::KINDS.iter().find(|k| k.name == *kind).expect("a kind");
-        (kind.lay)(&serde_yaml::from_str(parameters).expect("parameters"), &mut layout, &Nothing)
-            .unwrap_or_else(|e| panic!("{}", e.message));
+        (kind.lay)(&serde_yaml::from_str(parameters).expect("parameters"), &mut layout, &Nothing).unwrap_or_else(|e| panic!("{e}"));
     }
     let course = Course { path: layout.path(), speed: Speed::Constant(speed), torque_pulses: Vec::new() };
     let wishes = RiderDescription { lateral: LateralLaw::Pid, ..RiderDescription::default() };

@@ -7,11 +7,10 @@ use crate::output::responses::{Responses, quotient};
 use crate::output::{Angles, Beside, Point, Report};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::responses::{Excited, Job, Road, check_outputs, forced};
-use crate::small_motions::{FROZEN, SmallMotions, accelerates};
-use crate::{Context, Exit, Failure, model, results, steady};
+use crate::responses::{Answers, Excited, Road, check_outputs, names_of_variants, with_variants};
+use crate::{Context, Exit, Failure, model, results};
 use clap::{ArgMatches, Args, Command};
-use mbody::description::finding::{Finding, Severity};
+use mbody::description::finding::Finding;
 use mbody::description::quantity::dimension::Frequency;
 use mbody::dynamics::System;
 use nalgebra::Complex;
@@ -40,6 +39,9 @@ struct Arguments {
     /// A road of height 1 that oscillates along the track
     #[arg(long, value_name = "WHEELS", value_enum)]
     road: Option<Road>,
+    /// The same analysis for a variant: another description, or `PATH=VALUE` as in --set (repeatable)
+    #[arg(long, value_name = "FILE|PATH=VALUE")]
+    versus: Vec<String>,
 }
 
 fn command(command: Command) -> Command {
@@ -66,17 +68,12 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let (system, backend) = (&loaded.assembled.system, arguments.trim.backend.as_str());
     let excited = excited(&arguments, system)?;
     let outputs = outputs(&arguments, system)?;
-    let mut steady = steady::run(&request, system, backend, "steady states")?;
-    steady.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(ToString::to_string));
-    if accelerates(request.acceleration.as_ref()) {
-        steady.warnings.push(FROZEN.to_owned());
-    }
-    let small = SmallMotions { request: &request, system, backend, residual_tolerance: 1e-6 };
-    let job = Job { steady: &steady, excited: &excited, outputs: &outputs };
-    let (responses, unstable) = job.responses(&small, &|_: &Point| frequencies.clone());
-    steady.warnings.extend(forced(unstable, steady.points.len()));
+    let answers = Answers { request: &request, backend, excited: &excited, outputs: &outputs };
+    let at = |_: &Point| frequencies.clone();
+    let (steady, responses) = answers.of(&loaded, "steady states", &at)?;
     let mut report = results::report("frf", &loaded.name, Vec::new(), steady);
     report.beside = Beside::Responses(responses);
+    answers.versus(&mut report, (&arguments.model, &arguments.versus), context, &at)?;
     results::deliver(context, (&arguments.model, &arguments.output), report, figure)
 }
 
@@ -130,10 +127,10 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
     }
     let mut panels = Vec::new();
     for (k, output) in responses.outputs.iter().enumerate() {
-        let magnitudes = curves(report, responses, k, &|unit_factor, values| values.iter().map(|z| z.norm() * unit_factor).collect());
-        let mut phases = curves(report, responses, k, &|_, values| unwrapped(values));
-        // the panel above names the curves
-        phases.iter_mut().for_each(|curve| curve.name.clear());
+        let all = with_variants(report, responses);
+        let drawn = |of: Part<'_>| all.iter().enumerate().flat_map(|(v, r)| curves(report, (r, v), k, of)).collect::<Vec<_>>();
+        let magnitudes = drawn(&|unit_factor, values| values.iter().map(|z| z.norm() * unit_factor).collect());
+        let phases = drawn(&|_, values| unwrapped(values));
         let units: Vec<String> = responses.inputs.iter().map(|input| quotient(input, output, Angles::Degrees).0).collect();
         let unit = if units.iter().all(|u| *u == units[0]) { units[0].clone() } else { String::new() };
         panels.push(LinePanel { y: Axis::new(output.name.clone(), unit).logarithmic(), curves: magnitudes });
@@ -147,7 +144,7 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
         x: if logarithmic { axis.logarithmic() } else { axis },
         panels,
         bands: Vec::new(),
-        variants: Vec::new(),
+        variants: names_of_variants(report),
     }))
 }
 
@@ -155,7 +152,7 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
 type Part<'a> = &'a dyn Fn(f64, &[Complex<f64>]) -> Vec<f64>;
 
 /// Curves of one output: a curve per point and input.
-fn curves(report: &Report, responses: &Responses, output: usize, of: Part<'_>) -> Vec<Curve> {
+fn curves(report: &Report, (responses, variant): (&Responses, usize), output: usize, of: Part<'_>) -> Vec<Curve> {
     let mut curves = Vec::new();
     for (at, point) in report.points.iter().zip(&responses.points) {
         let Ok(point) = point else { continue };
@@ -165,7 +162,7 @@ fn curves(report: &Report, responses: &Responses, output: usize, of: Part<'_>) -
             let factor = quotient(input, &responses.outputs[output], Angles::Degrees).1;
             let values = of(factor, &point.values[k * responses.outputs.len() + output]);
             let points = point.frequencies.iter().copied().zip(values).collect();
-            curves.push(Curve { name: names.join(", "), points, markers: Markers::Never, variant: 0 });
+            curves.push(Curve { name: names.join(", "), points, markers: Markers::Never, variant });
         }
     }
     curves

@@ -9,11 +9,10 @@ use crate::output::responses::quotient;
 use crate::output::{Angles, Beside, Point, Report};
 use crate::plan::TrimArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::responses::{Excited, Job, check_outputs, forced};
-use crate::small_motions::{FROZEN, SmallMotions, accelerates};
-use crate::{Context, Exit, Failure, model, results, steady};
+use crate::responses::{Answers, Excited, check_outputs, names_of_variants, with_variants};
+use crate::{Context, Exit, Failure, model, results};
 use clap::{ArgMatches, Args, Command};
-use mbody::description::finding::{Finding, Severity};
+use mbody::description::finding::Finding;
 use mbody::description::quantity::dimension::Length;
 
 /// Row of the table of commands.
@@ -36,6 +35,9 @@ struct Arguments {
     /// Signal that answers
     #[arg(long = "output", value_name = "SIGNAL", default_value = "chassis.roll")]
     answer: String,
+    /// The same analysis for a variant: another description, or `PATH=VALUE` as in --set (repeatable)
+    #[arg(long, value_name = "FILE|PATH=VALUE")]
+    versus: Vec<String>,
 }
 
 fn command(command: Command) -> Command {
@@ -68,18 +70,13 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     excited.check(system)?;
     let outputs = [arguments.answer.clone()];
     check_outputs(&outputs, system)?;
-    let mut steady = steady::run(&request, system, backend, "steady states")?;
-    steady.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(ToString::to_string));
-    if accelerates(request.acceleration.as_ref()) {
-        steady.warnings.push(FROZEN.to_owned());
-    }
-    let small = SmallMotions { request: &request, system, backend, residual_tolerance: 1e-6 };
-    let job = Job { steady: &steady, excited: &excited, outputs: &outputs };
+    let answers = Answers { request: &request, backend, excited: &excited, outputs: &outputs };
     // the speed is the first of the prescribed quantities
-    let (responses, unstable) = job.responses(&small, &|point: &Point| vec![point.given[0] / (2.0 * spacing)]);
-    steady.warnings.extend(forced(unstable, steady.points.len()));
+    let at = |point: &Point| vec![point.given[0] / (2.0 * spacing)];
+    let (steady, responses) = answers.of(&loaded, "steady states", &at)?;
     let mut report = results::report("slalom", &loaded.name, Vec::new(), steady);
     report.beside = Beside::Responses(responses);
+    answers.versus(&mut report, (&arguments.model, &arguments.versus), context, &at)?;
     results::deliver(context, (&arguments.model, &arguments.output), report, |report| figure(report, spacing))
 }
 
@@ -93,13 +90,15 @@ fn figure(report: &Report, spacing: f64) -> Result<Figure, Failure> {
     };
     let (unit, factor) = quotient(input, output, Angles::Degrees);
     let mut curves: Vec<Curve> = Vec::new();
-    for (at, point) in report.points.iter().zip(&responses.points) {
+    let all = with_variants(report, responses);
+    let points = all.iter().enumerate().flat_map(|(v, r)| report.points.iter().zip(&r.points).map(move |(at, point)| (v, at, point)));
+    for (variant, at, point) in points {
         let others = (1..report.given.len()).filter(|&k| varies(k));
         let name = others.map(|k| quantity(&report.given[k].name, &report.given[k].unit, at.given[k])).collect::<Vec<_>>().join(", ");
         let value = (at.given[0], point.as_ref().map_or(f64::NAN, |p| p.values[0][0].norm() * factor));
-        match curves.iter_mut().find(|c| c.name == name) {
+        match curves.iter_mut().find(|c| c.name == name && c.variant == variant) {
             Some(curve) => curve.points.push(value),
-            None => curves.push(Curve { name, points: vec![value], markers: Markers::WhenFew, variant: 0 }),
+            None => curves.push(Curve { name, points: vec![value], markers: Markers::WhenFew, variant }),
         }
     }
     Ok(Figure::Lines(Lines {
@@ -107,6 +106,6 @@ fn figure(report: &Report, spacing: f64) -> Result<Figure, Failure> {
         x: Axis::new("speed", "m/s"),
         panels: vec![LinePanel { y: Axis::new(format!("{} / {}", output.name, input.name), unit), curves }],
         bands: Vec::new(),
-        variants: Vec::new(),
+        variants: names_of_variants(report),
     }))
 }

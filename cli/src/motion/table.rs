@@ -14,7 +14,7 @@ use std::path::Path;
 /// The file cannot be read, a column has an unknown name or unit, a value is no number, times decrease, no column is an input.
 pub fn act(file: &Path, plant: &dyn Plant, also_known: &[&str], inputs: &mut Driven) -> Result<(), Failure> {
     let shown = file.display().to_string();
-    let wrong = |code, why: String| argument("signals", &shown, code, why);
+    let wrong = |code, why: String| Failure::from(argument("signals", &shown, code, why));
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_path(file);
     let reader = reader.as_mut().map_err(|e| wrong("missing_file", format!("the file cannot be read: {e}")))?;
     let header = reader.headers().map_err(|e| wrong("bad_table", e.to_string()))?.clone();
@@ -25,9 +25,9 @@ pub fn act(file: &Path, plant: &dyn Plant, also_known: &[&str], inputs: &mut Dri
         let of = |known: &str| factor(unit, known).ok_or_else(|| wrong("bad_unit", format!("column `{title}`: `{name}` is in {known}")));
         match (k, variables.find(name)) {
             (0, _) if name == "time" => drop(of("s")?),
-            (0, _) => return Err(wrong("bad_table", format!("the first column is `{title}`, not `time`")).into()),
+            (0, _) => return Err(wrong("bad_table", format!("the first column is `{title}`, not `time`"))),
             (_, Some(Variable::Input(i))) => match columns.iter().any(|c| c.1 == i) {
-                true => return Err(wrong("given_twice", format!("`{name}` has two columns")).into()),
+                true => return Err(wrong("given_twice", format!("`{name}` has two columns"))),
                 false => columns.push((k, i, of(&variables.unit(Variable::Input(i)))?)),
             },
             (_, Some(_)) => {}
@@ -36,9 +36,8 @@ pub fn act(file: &Path, plant: &dyn Plant, also_known: &[&str], inputs: &mut Dri
         }
     }
     if columns.is_empty() {
-        return Err(wrong("bad_table", "no column is an input of this model".to_owned())
-            .with_hint("`fastbike info MODEL` lists the inputs")
-            .into());
+        let finding = argument("signals", &shown, "bad_table", "no column is an input of this model");
+        return Err(finding.with_hint("`fastbike info MODEL` lists the inputs").into());
     }
     let (mut times, mut values) = (Vec::new(), vec![Vec::new(); columns.len()]);
     for (row, record) in reader.records().enumerate() {

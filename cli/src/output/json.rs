@@ -45,8 +45,10 @@ pub(super) fn object(report: &Report) -> Value {
         let points = |v: &super::Variant| v.points.iter().map(|p| point(report, p)).collect::<Vec<_>>();
         let variants = report.variants.iter().map(|v| {
             let mut object = json!({ "variant": v.name, "points": points(v) });
-            if let Beside::Modes(modes) = &v.beside {
-                modes::add_json(modes, &report.given, &mut object);
+            match &v.beside {
+                Beside::Modes(modes) => modes::add_json(modes, &report.given, &mut object),
+                Beside::Responses(responses) => responses::add_json(responses, &mut object),
+                _ => {}
             }
             object
         });

@@ -1,7 +1,7 @@
 //! Frequency responses: a table with magnitudes and phases, JSON, CSV.
 
 use super::palette::styled;
-use super::report::Report;
+use super::report::{Beside, Report};
 use super::table::{self, Column};
 use super::{Angles, Options, csv};
 use nalgebra::Complex;
@@ -119,12 +119,74 @@ fn columns((input, output): (&Signal, &Signal), values: &[Complex<f64>], options
     [Column::new(&name, &unit, values.iter().map(|z| z.norm() * factor), Angles::Radians), phase]
 }
 
-/// A table of frequencies per point, or one of points where each has a single frequency.
+/// A table of frequencies per point, or one of points where each has a single frequency; then what is different in variants.
 pub(super) fn write_table(report: &Report, responses: &Responses, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
-    let palette = options.palette;
-    if report.points.len() > 1 && responses.single() {
-        return write_points(report, responses, options, out);
+    match report.points.len() > 1 && responses.single() {
+        true => write_points(report, responses, options, out)?,
+        false => write_sweeps(report, responses, options, out)?,
     }
+    for variant in &report.variants {
+        let Beside::Responses(other) = &variant.beside else { continue };
+        let heading = format!("versus {} (difference = variant - base, of the magnitudes)", variant.name);
+        writeln!(out, "\n{}", styled(options.palette.heading, &heading))?;
+        write_difference(report, (responses, other), options, out)?;
+    }
+    Ok(())
+}
+
+/// Magnitudes of a variant beside their differences: a line per point, or per frequency of each point.
+fn write_difference(
+    report: &Report,
+    (base, other): (&Responses, &Responses),
+    options: &Options,
+    out: &mut dyn io::Write,
+) -> io::Result<()> {
+    let magnitudes = |of: &Responses, point: usize, pair: usize| -> Vec<f64> {
+        of.points[point].as_ref().map_or(Vec::new(), |p| p.values[pair].iter().map(|z| z.norm()).collect())
+    };
+    let pairs: Vec<(String, String, f64)> = (base.pairs())
+        .map(|(input, output)| {
+            let (unit, factor) = quotient(input, output, options.angles);
+            (format!("{} / {}", output.name, input.name), unit, factor)
+        })
+        .collect();
+    let add = |all: &mut Vec<Column>, points: &[usize]| {
+        for (k, (name, unit, factor)) in pairs.iter().enumerate() {
+            let of = |which: &Responses| points.iter().flat_map(|&p| magnitudes(which, p, k)).map(|m| m * factor).collect::<Vec<f64>>();
+            let (before, after) = (of(base), of(other));
+            let difference = after.iter().zip(&before).map(|(a, b)| a - b);
+            all.push(Column::new(name, unit, after.iter().copied(), Angles::Radians));
+            all.push(Column::new("difference", unit, difference, Angles::Radians));
+        }
+    };
+    let both: Vec<usize> = (0..report.points.len()).filter(|&k| base.points[k].is_ok() && other.points[k].is_ok()).collect();
+    let mut write = |all: &[Column], rows: usize| -> io::Result<()> {
+        writeln!(out, "{}", styled(options.palette.heading, &table::line(all, &|c| c.name.clone())))?;
+        writeln!(out, "{}", styled(options.palette.faint, table::line(all, &|c| c.unit.clone()).trim_end()))?;
+        (0..rows).try_for_each(|row| writeln!(out, "{}", table::line(all, &|c| c.cells[row].clone()).trim_end()))
+    };
+    if report.points.len() > 1 && base.single() {
+        let points: Vec<super::Point> = both.iter().map(|&k| report.points[k].clone()).collect();
+        let (_, mut all) = table::prescribed_columns(report, &points, options);
+        add(&mut all, &both);
+        return write(&all, both.len());
+    }
+    for &k in &both {
+        let frequencies = base.points[k].as_ref().map_or(Vec::new(), |p| p.frequencies.clone());
+        let given = table::prescribed(report, &report.points[k], options.angles);
+        let mut all = vec![Column::new("frequency", "Hz", frequencies.iter().copied(), options.angles)];
+        add(&mut all, &[k]);
+        if !given.is_empty() {
+            all[0].name = format!("{given}: frequency");
+        }
+        write(&all, frequencies.len())?;
+    }
+    Ok(())
+}
+
+/// A table of frequencies per point.
+fn write_sweeps(report: &Report, responses: &Responses, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
+    let palette = options.palette;
     for (at, point) in report.points.iter().zip(&responses.points) {
         let given = table::prescribed(report, at, options.angles);
         writeln!(out, "\n{}", if given.is_empty() { "no speed: static pose".to_owned() } else { format!("given: {given}") })?;

@@ -134,9 +134,10 @@ pub fn loop_of(regulator: &Regulator) -> Vec<(f64, f64, f64)> {
     let mut last: Option<f64> = None;
     let points = regulator.margins.response.iter().map(|&(frequency, value)| {
         let phase = value.arg();
-        // a phase that goes on instead of jumping by a turn
-        if let Some(before) = last {
-            turned -= TAU * ((phase + turned - before) / TAU).round();
+        // a phase that goes on instead of jumping by a turn, and begins below zero
+        match last {
+            Some(before) => turned -= TAU * ((phase + turned - before) / TAU).round(),
+            None => turned = if phase > 0.0 { -TAU } else { 0.0 },
         }
         last = Some(phase + turned);
         (frequency, value.norm(), phase + turned)

@@ -91,7 +91,10 @@ impl Lines {
             canvas.unclip();
             panel.draw_frame(&mut canvas);
             panel.draw_y_labels(&mut canvas, labels);
-            right = right.max(content.draw_legend(&mut canvas, panel, (styles, &self.variants)));
+            // what a panel above has told already is not told again
+            if k == 0 || content.names() != self.panels[k - 1].names() {
+                right = right.max(content.draw_legend(&mut canvas, panel, (styles, &self.variants)));
+            }
             bottom = panel.frame.bottom();
         }
         if let Some(last) = panels.last() {
@@ -213,7 +216,7 @@ impl LinePanel {
                 legend.add(Key::Line(self.pen(k, (styles, variants)), curve.marked().then_some(styles + k)), &curve.name);
             }
         } else {
-            self.names().iter().enumerate().for_each(|(k, name)| {
+            self.names().iter().enumerate().filter(|(_, name)| !name.is_empty()).for_each(|(k, name)| {
                 legend.add(Key::Line(Pen::solid(style::curve_color(k), style::CURVE_WIDTH), None), name);
             });
         }

@@ -1,7 +1,7 @@
 //! Columns of a CSV file by name: what was measured, or recorded in an earlier run.
 
 use mbody::description::Library;
-use mbody::description::finding::{Finding, suggestion};
+use mbody::description::finding::{Finding, Findings, suggestion};
 use mbody::description::quantity::{Dimension, parse_quantity};
 
 /// Splits `name [unit]`.
@@ -16,7 +16,7 @@ fn split(title: &str) -> (&str, Option<&str>) {
 ///
 /// # Errors
 /// There is no such file or column, a unit of another dimension, a cell that is no number.
-pub fn columns(library: &dyn Library, file: &str, wanted: &[(&str, Option<&'static Dimension>)]) -> Result<Vec<Vec<f64>>, Finding> {
+pub fn columns(library: &dyn Library, file: &str, wanted: &[(&str, Option<&'static Dimension>)]) -> Result<Vec<Vec<f64>>, Findings> {
     let missing = || Finding::error("missing_file", format!("file `{file}` was not found beside the maneuver"));
     let text = library.text(file).ok_or_else(missing)?;
     let wrong = |code, why: String| Finding::error(code, format!("file `{file}`: {why}"));
@@ -26,7 +26,7 @@ pub fn columns(library: &dyn Library, file: &str, wanted: &[(&str, Option<&'stat
     for &(name, dimension) in wanted {
         let names = || titles.iter().map(|t| split(t).0);
         let Some(at) = names().position(|n| n == name) else {
-            return Err(wrong("bad_table", format!("there is no column `{name}`")).with_hint_from(suggestion(name, names())));
+            return Err(wrong("bad_table", format!("there is no column `{name}`")).with_hint_from(suggestion(name, names())).into());
         };
         let factor = match (split(titles[at]).1, dimension) {
             (Some(unit), Some(dimension)) => parse_quantity(&format!("1 {unit}"), dimension),
@@ -67,7 +67,7 @@ mod tests {
         let text = Text("# measured\nother,x [cm], time [ms]\n1, 2, 3\n4, 5e1, 6\n");
         let read = columns(&text, "here.csv", &[("time", Some(Time::DIMENSION)), ("x", Some(Length::DIMENSION))]).expect("a table");
         assert_eq!(read, [vec![0.003, 0.006], vec![0.02, 0.5]]);
-        let why = |text, file, name| columns(&Text(text), file, &[(name, Some(Length::DIMENSION))]).expect_err("a finding").message;
+        let why = |text, file, name| columns(&Text(text), file, &[(name, Some(Length::DIMENSION))]).expect_err("a finding").to_string();
         assert!(why("x\n1", "there.csv", "x").contains("`there.csv` was not found"));
         assert!(why("x\n1", "here.csv", "y").contains("no column `y`"));
         assert!(why("x [s]\n1", "here.csv", "x").contains("column `x [s]`"));

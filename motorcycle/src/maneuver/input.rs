@@ -2,7 +2,7 @@
 //!
 //! Which inputs there are, and in which unit, is a matter of the vehicle: amounts stay as written until it is known.
 
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::Time;
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -135,22 +135,23 @@ impl InputDescription {
     ///
     /// # Errors
     /// There is none, or there are several, or times of a table decrease.
-    pub(super) fn moving(self) -> Result<Moving, Finding> {
+    pub(super) fn moving(self) -> Result<Moving, Findings> {
         let pulse = self.pulse.map(|p| Piece::Pulse { peak: p.peak, start: p.start.si(), duration: p.duration.si() });
         let step = self.step.map(|p| Piece::Step { height: p.height, start: p.start.si() });
         let ramp = self.ramp.map(|p| Piece::Ramp { height: p.height, start: p.start.si(), duration: p.duration.si() });
         if let Some(k) = self.table.iter().flat_map(|t| t.windows(2)).position(|w| w[1].0.si() < w[0].0.si()) {
-            return Err(
-                Finding::error("bad_curve", format!("the time of point {} is before that of the point before it", k + 2)).at_path("table")
-            );
+            return Err(Finding::error("bad_curve", format!("the time of point {} is before that of the point before it", k + 2))
+                .at_path("table")
+                .into());
         }
         let table = self.table.map(|points| Piece::Table(points.into_iter().map(|(t, v)| (t.si(), v)).collect()));
         let mut pieces = [pulse, step, ramp, table].into_iter().flatten();
         match (pieces.next(), pieces.next()) {
             (Some(piece), None) => Ok(Moving { input: self.input, piece }),
-            (None, _) => Err(Finding::error("missing_entry", "one of `pulse`, `step`, `ramp` and `table` is needed")),
+            (None, _) => Err(Finding::error("missing_entry", "one of `pulse`, `step`, `ramp` and `table` is needed").into()),
             _ => Err(Finding::error("given_twice", "only one of `pulse`, `step`, `ramp` and `table` says how an input changes")
-                .with_hint("several entries may act on one input: they add up")),
+                .with_hint("several entries may act on one input: they add up")
+                .into()),
         }
     }
 }

@@ -282,12 +282,15 @@ pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], f
             return None;
         }
     };
+    let all = |findings: &mut Findings, path: &str, wrong: &Findings| {
+        below(path, wrong).iter().for_each(|finding| findings.push(document.locate(finding.clone())));
+    };
     let mut layout = Layout::default();
     for (k, entry) in written.path.iter().enumerate() {
         let Some((name, value)) = single(entry) else { continue };
         let Some(kind) = section::KINDS.iter().find(|k| k.name == name) else { continue };
-        if let Err(finding) = (kind.lay)(value, &mut layout, library) {
-            findings.push(document.locate(below(&format!("path.{k}.{name}"), finding)));
+        if let Err(wrong) = (kind.lay)(value, &mut layout, library) {
+            all(findings, &format!("path.{k}.{name}"), &wrong);
         }
     }
     let mut road = None;
@@ -295,14 +298,14 @@ pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], f
     if let Some((kind, value)) = of_road.and_then(|(name, value)| Some((relief::KINDS.iter().find(|k| k.name == name)?, value))) {
         match (kind.make)(value, library) {
             Ok(made) => road = made,
-            Err(finding) => findings.push(document.locate(below(&format!("road.{}", kind.name), finding))),
+            Err(wrong) => all(findings, &format!("road.{}", kind.name), &wrong),
         }
     }
     let mut inputs = Vec::new();
     for (k, entry) in written.inputs.take().into_iter().flatten().enumerate() {
         match entry.moving() {
             Ok(moving) => inputs.push(moving),
-            Err(finding) => findings.push(document.locate(below(&format!("inputs.{k}"), finding))),
+            Err(wrong) => all(findings, &format!("inputs.{k}"), &wrong),
         }
     }
     let speed = match target(&written) {
@@ -339,10 +342,13 @@ fn single(entry: &Value) -> Option<(&str, &Value)> {
     entry.as_object()?.iter().next().map(|(name, value)| (name.as_str(), value))
 }
 
-/// A finding of a part of the maneuver, at its path from the whole.
-fn below(path: &str, finding: Finding) -> Finding {
-    let path = if finding.path.is_empty() { path.to_owned() } else { format!("{path}.{}", finding.path) };
-    finding.at_path(path)
+/// Findings of a part of the maneuver, at their paths from the whole.
+pub(crate) fn below(path: &str, findings: &Findings) -> Findings {
+    let at = |finding: &Finding| {
+        let path = if finding.path.is_empty() { path.to_owned() } else { format!("{path}.{}", finding.path) };
+        finding.clone().at_path(path)
+    };
+    findings.iter().map(at).collect()
 }
 
 /// The target speed; where it is not a curve, the key and why.

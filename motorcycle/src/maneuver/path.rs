@@ -1,8 +1,8 @@
 //! A path on the road: a curve by arc length.
 //!
-//! `ψ' = κ(s)`, `x' = cos ψ`, `y' = sin ψ`; s arc length, m; κ curvature, positive to the left, 1/m; ψ heading, rad. The curvature is a twice differentiable
-//! spline of what was laid, the heading its integral, the position that of the heading (Gauss–Legendre, four points an interval). Before its start a
-//! path is straight, beyond its end it keeps its curvature for [`BEYOND`].
+//! `ψ' = κ(s)`, `x' = cos ψ`, `y' = sin ψ`; s arc length, m; κ curvature, positive to the left, 1/m; ψ heading, rad. Heading and position are
+//! integrals of what was laid (the position by Gauss–Legendre, four points an interval), all of them twice differentiable splines over arc length; corners of the
+//! curvature are rounded over a knot. Before its start a path is straight, beyond its end it keeps its curvature for [`BEYOND`].
 //!
 //! Source: elementary differential geometry. Range: intervals of [`STEP`]; curvature radii well above it.
 
@@ -192,6 +192,20 @@ impl Layout {
         self.last_curvature()
     }
 
+    /// Heading at an arc length: what the pieces turn by, exactly.
+    fn heading(&self, s: f64) -> f64 {
+        let (mut from, mut heading) = (0.0, 0.0);
+        for (length, piece) in &self.pieces {
+            let at = (s - from).clamp(0.0, *length);
+            heading += match piece {
+                Piece::Even(a, b) => at * (a + 0.5 * (b - a) * at / length),
+                Piece::Sampled(curve) => curve.integral(at),
+            };
+            from += length;
+        }
+        heading + self.last_curvature() * (s - from).max(0.0)
+    }
+
     /// The path, from the origin along x.
     pub fn path(&self) -> Path {
         let length = self.length();
@@ -201,17 +215,15 @@ impl Layout {
         // knots increase and are finite, and there are more than two: these splines exist
         let spline = |y: &[f64], ends| CubicSpline::new(&s, y, ends).unwrap_or_else(|_| unreachable!());
         let curvature = spline(&values, Ends::Clamped { first: 0.0, last: 0.0 });
-        let at_origin = curvature.integral(0.0);
-        let heading_at = |s: f64| curvature.integral(s) - at_origin;
         let (mut x, mut y) = (vec![0.0; s.len()], vec![0.0; s.len()]);
         for k in 1..s.len() {
             let (dx, dy) = GAUSS.iter().fold((0.0, 0.0), |(dx, dy), (at, weight)| {
-                let (sine, cosine) = heading_at(s[k - 1] + STEP * at).sin_cos();
+                let (sine, cosine) = self.heading(s[k - 1] + STEP * at).sin_cos();
                 (dx + weight * STEP * cosine, dy + weight * STEP * sine)
             });
             (x[k], y[k]) = (x[k - 1] + dx, y[k - 1] + dy);
         }
-        let heading: Vec<f64> = s.iter().map(|&s| heading_at(s)).collect();
+        let heading: Vec<f64> = s.iter().map(|&s| self.heading(s)).collect();
         let clamped = |y: &[f64], slope: &dyn Fn(usize) -> f64| spline(y, Ends::Clamped { first: slope(0), last: slope(count) });
         let x_curve = clamped(&x, &|k| heading[k].cos());
         let y_curve = clamped(&y, &|k| heading[k].sin());

@@ -1,6 +1,6 @@
 //! The virtual rider: holds, steers, drives and brakes a single-track vehicle along a path.
 //!
-//! [`Rider`] is a [`Controller`]: it reads coordinates and velocities and commands steering torque, wheel torque and brake torques. Its laws are in [`law`]; what
+//! [`Rider`] is a [`Controller`]: it reads coordinates and velocities and commands steering torque, wheel torque and brake torques. Its laws are in `law.rs`; what
 //! it knows of the machine, steady states and gains, is a table ([`schedule`]) that somebody else computed from the model: nothing here is tuned by hand.
 
 pub mod cascade;

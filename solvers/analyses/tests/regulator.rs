@@ -31,6 +31,8 @@ fn model() -> LinearModel {
         C: DMatrix::zeros(0, 2),
         D: DMatrix::zeros(0, 1),
         unknowns: DMatrix::identity(2, 2),
+        unknowns_by_inputs: DMatrix::zeros(2, 1),
+        unknown_signals: Vec::new(),
         cyclic: Cyclic { unknowns: Vec::new(), by_cyclic: DMatrix::zeros(0, 0), by_states: DMatrix::zeros(0, 2) },
         left_out: Vec::new(),
     }

@@ -33,6 +33,8 @@ fn model(C: [f64; 4], K: [f64; 4]) -> LinearModel {
         C: nothing(),
         D: nothing(),
         unknowns: DMatrix::identity(4, 4),
+        unknowns_by_inputs: DMatrix::zeros(4, 0),
+        unknown_signals: Vec::new(),
         cyclic: Cyclic { unknowns: Vec::new(), by_cyclic: nothing(), by_states: DMatrix::zeros(0, 4) },
         left_out: Vec::new(),
     }

@@ -11,6 +11,7 @@ mod modes;
 mod motion;
 mod peer;
 mod plants;
+mod ride;
 mod sweep;
 
 use clock::Clock;
@@ -22,5 +23,6 @@ fn main() {
     sweep::run(&mut clock);
     modes::run(&mut clock);
     motion::run(&mut clock);
+    ride::run(&mut clock);
     peer::print(&clock.finish());
 }

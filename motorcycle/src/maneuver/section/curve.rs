@@ -5,7 +5,7 @@
 
 use super::{Layout, SectionDescription};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::{Angle, Length};
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
 use schemars::JsonSchema;
@@ -31,12 +31,13 @@ impl SectionDescription for Curve {
     const KIND: &'static str = "curve";
     const ABOUT: &'static str = "into a curve by a clothoid, along it, and out of it again where `exit` says so";
     const EXAMPLE: &'static str = "{ radius: 100 m, transition: 30 m, angle: 90 deg, exit: 30 m }";
-    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Finding> {
+    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Findings> {
         let (radius, entry) = (self.radius.si(), self.transition.si());
         if radius == 0.0 {
             return Err(Finding::error("out_of_range", "a radius of `0 m` is out of range")
                 .at_path("radius")
-                .with_hint("a straight is its own section"));
+                .with_hint("a straight is its own section")
+                .into());
         }
         let exit = self.exit.map(|e| e.si());
         let arc = match (self.angle, self.length) {
@@ -48,13 +49,14 @@ impl SectionDescription for Curve {
                     let message = format!("the transitions alone turn by more than the angle: the arc would be {arc:.3} m long");
                     return Err(Finding::error("out_of_range", message)
                         .at_path("angle")
-                        .with_hint("take shorter transitions or a larger angle"));
+                        .with_hint("take shorter transitions or a larger angle")
+                        .into());
                 }
                 arc
             }
-            (None, None) => return Err(Finding::error("missing_entry", "one of `angle` and `length` is needed").at_path("")),
+            (None, None) => return Err(Finding::error("missing_entry", "one of `angle` and `length` is needed").at_path("").into()),
             (Some(_), Some(_)) => {
-                return Err(Finding::error("given_twice", "`angle` and `length` say the same; give one of them").at_path("length"));
+                return Err(Finding::error("given_twice", "`angle` and `length` say the same; give one of them").at_path("length").into());
             }
         };
         path.bend(entry, path.last_curvature(), 1.0 / radius);

@@ -9,7 +9,7 @@
 
 use super::{Layout, SectionDescription, quintic};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::{PositiveQuantity, dimension::Length};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -42,13 +42,13 @@ impl SectionDescription for DoubleLaneChange {
     const KIND: &'static str = "double_lane_change";
     const ABOUT: &'static str = "out of the lane and back into it: the tracks of ISO 3888";
     const EXAMPLE: &'static str = "{ standard: iso_3888_2, vehicle_width: 0.8 m }";
-    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Finding> {
+    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Findings> {
         let b = self.vehicle_width.si();
         let stretch = self.stretch.unwrap_or(1.0);
         if !(stretch.is_finite() && stretch > 0.0) {
-            return Err(
-                Finding::error("out_of_range", format!("a stretch of `{stretch}` is out of range: it must be positive")).at_path("stretch")
-            );
+            return Err(Finding::error("out_of_range", format!("a stretch of `{stretch}` is out of range: it must be positive"))
+                .at_path("stretch")
+                .into());
         }
         let (lengths, offset) = match self.standard {
             Standard::DoubleLaneChange => ([15.0, 30.0, 25.0, 25.0, 15.0], 3.5),

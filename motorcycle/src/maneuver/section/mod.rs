@@ -10,7 +10,7 @@ mod u_turn;
 
 use super::path::{Layout, Twice};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -27,7 +27,7 @@ pub trait SectionDescription: DeserializeOwned + JsonSchema {
     ///
     /// # Errors
     /// Parameters that do not go together.
-    fn lay(self, path: &mut Layout, library: &dyn Library) -> Result<(), Finding>;
+    fn lay(self, path: &mut Layout, library: &dyn Library) -> Result<(), Findings>;
 }
 
 /// A row of the table.
@@ -42,7 +42,7 @@ pub struct SectionKind {
     /// JSON Schema of the parameters.
     pub schema: fn(&mut SchemaGenerator) -> Schema,
     /// Reads the parameters and lays the section.
-    pub lay: fn(&Value, &mut Layout, &dyn Library) -> Result<(), Finding>,
+    pub lay: fn(&Value, &mut Layout, &dyn Library) -> Result<(), Findings>,
 }
 
 impl SectionKind {
@@ -57,11 +57,11 @@ impl std::fmt::Debug for SectionKind {
     }
 }
 
-fn lay<T: SectionDescription>(value: &Value, path: &mut Layout, library: &dyn Library) -> Result<(), Finding> {
+fn lay<T: SectionDescription>(value: &Value, path: &mut Layout, library: &dyn Library) -> Result<(), Findings> {
     let read: T = serde_path_to_error::deserialize(value).map_err(|e| {
         let at = e.path().to_string();
         let at = if at == "." { String::new() } else { at };
-        Finding::error("invalid_entry", e.into_inner().to_string()).at_path(at)
+        Findings::from(Finding::error("invalid_entry", e.into_inner().to_string()).at_path(at))
     })?;
     read.lay(path, library)
 }
@@ -101,7 +101,7 @@ mod tests {
             let value: Value = serde_yaml::from_str(kind.example).unwrap();
             let mut layout = Layout::default();
             layout.straight(5.0);
-            (kind.lay)(&value, &mut layout, &Nothing).unwrap_or_else(|e| panic!("{}: {}", kind.name, e.message));
+            (kind.lay)(&value, &mut layout, &Nothing).unwrap_or_else(|e| panic!("{}: {e}", kind.name));
             let path = layout.path();
             assert!(path.length() > 5.0, "{}", kind.name);
             // one unit of arc per unit of arc
@@ -112,7 +112,8 @@ mod tests {
                 let way = (b.x - a.x).hypot(b.y - a.y);
                 assert!((way / (2.0 * h) - 1.0).abs() < 1e-6, "{} at {s}", kind.name);
                 let turned = (b.heading - a.heading) / (2.0 * h);
-                assert!((turned - path.curvature(s)).abs() < 1e-4, "{} at {s}: {turned} {}", kind.name, path.curvature(s));
+                // corners of the curvature are rounded over a knot
+                assert!((turned - path.curvature(s)).abs() < 1e-3, "{} at {s}: {turned} {}", kind.name, path.curvature(s));
             }
         }
     }

@@ -6,9 +6,9 @@
 //! Source: differential geometry; C. de Boor, *A Practical Guide to Splines* (chordal parameter). Range: points denser than the radii they turn by.
 
 use super::{Layout, SectionDescription};
-use crate::maneuver::columns;
+use crate::maneuver::{below, columns};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::{Curvature, Length};
 use mbody::description::quantity::{Dimensioned, Quantity};
 use mbody::scalar::spline::{CubicSpline, Ends};
@@ -36,13 +36,13 @@ impl SectionDescription for ThroughPoints {
     const KIND: &'static str = "through_points";
     const ABOUT: &'static str = "a path through points, or by its curvature over arc length";
     const EXAMPLE: &'static str = "{ points: [[0 m, 0 m], [20 m, 0.2 m], [40 m, 1.5 m], [60 m, 3 m], [80 m, 3.4 m]] }";
-    fn lay(self, path: &mut Layout, library: &dyn Library) -> Result<(), Finding> {
-        let wrong = |key: &str, why: String| Finding::error("bad_curve", why).at_path(key);
+    fn lay(self, path: &mut Layout, library: &dyn Library) -> Result<(), Findings> {
+        let wrong = |key: &str, why: String| Findings::from(Finding::error("bad_curve", why).at_path(key));
         match (self.points, self.curvature, self.file) {
             (None, None, Some(file)) => {
                 let (x, y) = self.columns.unwrap_or_else(|| ("chassis.x".to_owned(), "chassis.y".to_owned()));
                 let length = Some(Length::DIMENSION);
-                let read = columns(library, &file, &[(&x, length), (&y, length)]).map_err(|e| e.at_path("file"))?;
+                let read = columns(library, &file, &[(&x, length), (&y, length)]).map_err(|e| below("file", &e))?;
                 let curve = by_points(&thinned(&read[0], &read[1])).map_err(|e| wrong("file", e))?;
                 path.curve(curve);
             }
@@ -59,7 +59,7 @@ impl SectionDescription for ThroughPoints {
                 let curve = CubicSpline::new(&s, &k, Ends::Natural).map_err(|e| wrong("curvature", e.to_string()))?;
                 path.curve(curve);
             }
-            _ => return Err(Finding::error("missing_entry", "one of `points`, `curvature` and `file` is needed").at_path("")),
+            _ => return Err(Finding::error("missing_entry", "one of `points`, `curvature` and `file` is needed").at_path("").into()),
         }
         Ok(())
     }

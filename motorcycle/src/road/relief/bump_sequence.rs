@@ -5,7 +5,7 @@
 use super::cosine_bump::Bump;
 use super::{Relief, ReliefDescription};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity, dimension::Length};
 use mbody::scalar::spline::CurvePoint;
 use schemars::JsonSchema;
@@ -51,12 +51,12 @@ impl ReliefDescription for BumpSequence {
     const KIND: &'static str = "bump_sequence";
     const ABOUT: &'static str = "equal bumps one after the other";
     const EXAMPLE: &'static str = "{ height: 30 mm, length: 0.6 m, station: 20 m, spacing: 3 m, count: 5 }";
-    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
+    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings> {
         let first = Bump { height: self.height.si(), length: self.length.si(), begin: self.station.si() };
         let spacing = self.spacing.si();
         if spacing < first.length {
             let why = format!("bumps {} m long would overlap every {spacing} m", first.length);
-            return Err(Finding::error("out_of_range", why).at_path("spacing").with_hint("make `spacing` at least `length`"));
+            return Err(Finding::error("out_of_range", why).at_path("spacing").with_hint("make `spacing` at least `length`").into());
         }
         Ok(Some(Arc::new(Bumps { first, spacing, count: self.count.max(1) })))
     }

@@ -6,7 +6,7 @@
 
 use super::{Relief, ReliefDescription};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::Findings;
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity, dimension::Length};
 use mbody::scalar::spline::CurvePoint;
 use schemars::JsonSchema;
@@ -54,7 +54,7 @@ impl ReliefDescription for CosineBump {
     const KIND: &'static str = "cosine_bump";
     const ABOUT: &'static str = "a bump or a dip across the road";
     const EXAMPLE: &'static str = "{ height: 30 mm, length: 0.6 m, station: 20 m }";
-    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
+    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings> {
         Ok(Some(Arc::new(Bump { height: self.height.si(), length: self.length.si(), begin: self.station.si() })))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Relief, ReliefDescription};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::Findings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ impl ReliefDescription for Flat {
     const KIND: &'static str = "flat";
     const ABOUT: &'static str = "a level road";
     const EXAMPLE: &'static str = "{}";
-    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
+    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings> {
         Ok(None)
     }
 }

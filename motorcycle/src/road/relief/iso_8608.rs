@@ -5,7 +5,7 @@
 use super::{Onset, Relief, ReliefDescription, USUAL};
 use crate::road::roughness::{CLASSES, Profile, Roughness};
 use mbody::description::Library;
-use mbody::description::finding::{Finding, suggestion};
+use mbody::description::finding::{Finding, Findings, suggestion};
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, dimension::Length};
 use mbody::scalar::spline::CurvePoint;
 use schemars::JsonSchema;
@@ -48,7 +48,7 @@ impl ReliefDescription for Iso8608 {
     const KIND: &'static str = "iso_8608";
     const ABOUT: &'static str = "a random road of a class of ISO 8608";
     const EXAMPLE: &'static str = "{ class: B, seed: 1 }";
-    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
+    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings> {
         let roughness = match (self.class, self.level) {
             (Some(name), None) => {
                 let found = CLASSES.iter().find(|c| c.name == name).copied();
@@ -60,9 +60,9 @@ impl ReliefDescription for Iso8608 {
             }
             (None, Some(level)) => Roughness { level, exponent: 2.0 },
             (Some(_), Some(_)) => {
-                return Err(Finding::error("given_twice", "`class` and `level` both say how rough the road is").at_path("level"));
+                return Err(Finding::error("given_twice", "`class` and `level` both say how rough the road is").at_path("level").into());
             }
-            (None, None) => return Err(Finding::error("missing_entry", "one of `class` and `level` is needed").at_path("")),
+            (None, None) => return Err(Finding::error("missing_entry", "one of `class` and `level` is needed").at_path("").into()),
         };
         let onset = Onset { begin: self.begin.map_or(USUAL.begin, |q| q.si()), length: self.transition.map_or(USUAL.length, |q| q.si()) };
         Ok(Some(Arc::new(Rough { profile: roughness.profile(self.seed.unwrap_or(1), WAVES), onset })))

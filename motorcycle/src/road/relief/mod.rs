@@ -11,7 +11,7 @@ mod profile;
 mod sine;
 
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::scalar::spline::CurvePoint;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
@@ -41,11 +41,11 @@ pub trait ReliefDescription: DeserializeOwned + JsonSchema {
     ///
     /// # Errors
     /// Parameters that do not go together, files that are not there.
-    fn relief(self, library: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding>;
+    fn relief(self, library: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings>;
 }
 
 /// Reads the parameters of a kind and makes the road.
-type Make = fn(&Value, &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding>;
+type Make = fn(&Value, &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings>;
 
 /// A row of the table.
 #[derive(Clone, Copy)]
@@ -74,11 +74,11 @@ impl Debug for ReliefKind {
     }
 }
 
-fn make<T: ReliefDescription>(value: &Value, library: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
+fn make<T: ReliefDescription>(value: &Value, library: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings> {
     let read: T = serde_path_to_error::deserialize(value).map_err(|e| {
         let at = e.path().to_string();
         let at = if at == "." { String::new() } else { at };
-        Finding::error("invalid_entry", e.into_inner().to_string()).at_path(at)
+        Findings::from(Finding::error("invalid_entry", e.into_inner().to_string()).at_path(at))
     })?;
     read.relief(library)
 }
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    fn road(kind: &str, parameters: &str) -> Result<Option<Arc<dyn Relief>>, Finding> {
+    fn road(kind: &str, parameters: &str) -> Result<Option<Arc<dyn Relief>>, Findings> {
         let kind = KINDS.iter().find(|k| k.name == kind).expect("a kind");
         (kind.make)(&serde_yaml::from_str(parameters).unwrap(), &OneFile)
     }
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn slopes_are_derivatives_of_heights_and_second_derivatives_of_slopes() {
         for kind in KINDS {
-            let Some(road) = road(kind.name, kind.example).unwrap_or_else(|e| panic!("{}: {}", kind.name, e.message)) else { continue };
+            let Some(road) = road(kind.name, kind.example).unwrap_or_else(|e| panic!("{}: {e}", kind.name)) else { continue };
             let mut highest: f64 = 0.0;
             for k in 0..400 {
                 // not a multiple of what the examples have corners at
@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_said() {
-        let why = |kind: &str, parameters: &str| road(kind, parameters).expect_err("a finding").message;
+        let why = |kind: &str, parameters: &str| road(kind, parameters).expect_err("a finding").to_string();
         assert!(why("profile", "{ file: none.csv }").contains("`none.csv`"));
         assert!(why("profile", "{ points: [[0 m, 0 m]] }").contains("points"));
         assert!(why("bump_sequence", "{ height: 30 mm, length: 0.6 m, station: 20 m, spacing: 0.5 m, count: 3 }").contains("0.6 m"));

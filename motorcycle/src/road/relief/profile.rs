@@ -6,9 +6,9 @@
 //! Source: C. de Boor, *A Practical Guide to Splines*, Springer 1978 (complete cubic spline). Range: stations as dense as the road is uneven.
 
 use super::{Relief, ReliefDescription};
-use crate::maneuver::columns;
+use crate::maneuver::{below, columns};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::Length;
 use mbody::description::quantity::{Dimensioned, Quantity};
 use mbody::scalar::spline::{CubicSpline, CurvePoint, Ends};
@@ -46,7 +46,7 @@ impl ReliefDescription for Profile {
     const KIND: &'static str = "profile";
     const ABOUT: &'static str = "a road by its heights at stations along the path";
     const EXAMPLE: &'static str = "{ points: [[10 m, 0 m], [15 m, 20 mm], [20 m, -5 mm], [30 m, 10 mm]] }";
-    fn relief(self, library: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
+    fn relief(self, library: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings> {
         let (key, stations, heights): (_, Vec<f64>, Vec<f64>) = match (self.points, self.file) {
             (Some(points), None) => {
                 let (stations, heights) = points.iter().map(|p| (p.0.si(), p.1.si())).unzip();
@@ -54,10 +54,10 @@ impl ReliefDescription for Profile {
             }
             (None, Some(file)) => {
                 let length = Some(Length::DIMENSION);
-                let read = columns(library, &file, &[("station", length), ("height", length)]).map_err(|e| e.at_path("file"))?;
+                let read = columns(library, &file, &[("station", length), ("height", length)]).map_err(|e| below("file", &e))?;
                 ("file", read[0].clone(), read[1].clone())
             }
-            _ => return Err(Finding::error("missing_entry", "one of `points` and `file` is needed").at_path("")),
+            _ => return Err(Finding::error("missing_entry", "one of `points` and `file` is needed").at_path("").into()),
         };
         let first = heights.first().copied().unwrap_or_default();
         let heights: Vec<f64> = heights.iter().map(|h| h - first).collect();

@@ -5,7 +5,7 @@
 
 use super::{Onset, Relief, ReliefDescription, USUAL};
 use mbody::description::Library;
-use mbody::description::finding::Finding;
+use mbody::description::finding::Findings;
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity, dimension::Length};
 use mbody::scalar::spline::CurvePoint;
 use schemars::JsonSchema;
@@ -46,7 +46,7 @@ impl ReliefDescription for Sine {
     const KIND: &'static str = "sine";
     const ABOUT: &'static str = "even waves";
     const EXAMPLE: &'static str = "{ amplitude: 10 mm, wavelength: 5 m, begin: 20 m, transition: 5 m }";
-    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Finding> {
+    fn relief(self, _: &dyn Library) -> Result<Option<Arc<dyn Relief>>, Findings> {
         let onset = Onset { begin: self.begin.map_or(USUAL.begin, |q| q.si()), length: self.transition.map_or(USUAL.length, |q| q.si()) };
         Ok(Some(Arc::new(Waves { amplitude: self.amplitude.si(), number: TAU / self.wavelength.si(), onset })))
     }

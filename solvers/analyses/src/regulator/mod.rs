@@ -203,10 +203,10 @@ fn actuated(design: &Design) -> Vec<f64> {
     delay.into_iter().chain(lag).flatten().collect()
 }
 
-/// A, B, and indices of the kept states.
+/// `ẋ = A x + B u`, and the indices of the kept states.
 type Extended = (DMatrix<f64>, DMatrix<f64>, Vec<usize>);
 
-/// `ẋ = A x + B u` of the kept states, then offset and heading error; indices of the kept states.
+/// The kept states, then offset and heading error.
 fn extended(model: &LinearModel, course: &Course, design: &Design) -> Result<Extended, RegulatorError> {
     let unknown = |what, name: &str| RegulatorError::Unknown { what, name: name.to_owned() };
     let input = model.input(&design.input).ok_or_else(|| unknown("input", &design.input))?;
