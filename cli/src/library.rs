@@ -48,19 +48,19 @@ pub fn bundled_maneuvers() -> Vec<&'static str> {
     BUNDLED.iter().filter_map(|(path, _)| path.strip_prefix("maneuvers/")?.strip_suffix(".yaml")).collect()
 }
 
-/// File name and text of a maneuver: a bundled name, or a path that ends in `.yaml` or `.yml`.
+/// A maneuver and the files beside it: a bundled name, or a path that ends in `.yaml` or `.yml`.
 ///
 /// # Errors
 /// There is none.
-pub fn maneuver(name: &str) -> Result<(String, Cow<'static, str>), Findings> {
+pub fn maneuver(name: &str) -> Result<Source, Findings> {
     let path = Path::new(name);
     if path.extension().is_some_and(|e| e == "yaml" || e == "yml") {
         readable(path, name)?;
-        let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        return Ok((file, Cow::Owned(fs::read_to_string(path).unwrap_or_default())));
+        return Ok(Source::on_disk(path));
     }
-    if let Some(text) = bundled(&format!("maneuvers/{name}.yaml")) {
-        return Ok((format!("{name}.yaml"), Cow::Borrowed(text)));
+    let file = format!("{name}.yaml");
+    if bundled(&format!("maneuvers/{file}")).is_some() {
+        return Ok(Source { file, name: name.to_owned(), folder: None, bundled: "maneuvers".to_owned() });
     }
     let known = bundled_maneuvers();
     let finding = Finding::error("unknown_maneuver", format!("there is no bundled maneuver `{name}`"));
@@ -74,10 +74,7 @@ impl Source {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         if matches!(extension, "yaml" | "yml" | "urdf") {
             readable(path, model)?;
-            let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-            let name = path.file_stem().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-            let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_path_buf();
-            return Ok(Self { file, name, folder: Some(folder), bundled: String::new() });
+            return Ok(Self::on_disk(path));
         }
         for folder in FOLDERS {
             for extension in ["yaml", "urdf"] {
@@ -93,6 +90,14 @@ impl Source {
         let known = bundled_models();
         let finding = Finding::error("unknown_model", format!("there is no bundled model `{model}`"));
         Err(finding.with_hint_from(suggestion(model, known.iter().copied())).into())
+    }
+
+    /// A file and those beside it.
+    fn on_disk(path: &Path) -> Self {
+        let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = path.file_stem().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_path_buf();
+        Self { file, name, folder: Some(folder), bundled: String::new() }
     }
 
     /// Whether the description is a plain URDF.

@@ -3,12 +3,13 @@
 use crate::Failure;
 use crate::arguments::argument;
 use crate::library;
+use crate::replay::replay;
 use crate::rider::Task;
+use crate::road;
 use mbody::description::finding::{Finding, Findings};
 use mbody::dynamics::System;
-use motorcycle::maneuver::{Control, Maneuver};
-use motorcycle::rider::Rider;
-use problem::{Limit, Side};
+use motorcycle::maneuver::{Control, Maneuver, Moving};
+use problem::{Controller, Limit, Side};
 use std::sync::Arc;
 
 /// Name of the ending at the end of the path.
@@ -17,14 +18,36 @@ pub const GOAL: &str = "end_of_path";
 /// Share of the front brake where the loads do not say it.
 const FRONT_BRAKE_SHARE: f64 = 0.7;
 
+/// Steps that an integration takes at least over the shortest bump of a road.
+const STEPS_PER_BUMP: f64 = 2.0;
+
 /// A maneuver that is about to be ridden.
 pub struct Ride {
-    /// Who rides; nobody where the inputs stay as they are.
-    pub rider: Option<Rider>,
+    /// Who rides, and what passes under the wheels.
+    pub controllers: Vec<Box<dyn Controller>>,
+    /// Inputs over time.
+    pub inputs: Vec<Moving>,
+    /// Longest step with which nothing on the road is passed over, s.
+    pub longest_step: f64,
+    /// When it ends at the latest, s.
+    pub end: f64,
     /// What is the end of it, where there is a rider to tell.
     pub goal: Option<Limit>,
     /// What the reader should know.
     pub warnings: Vec<String>,
+}
+
+impl Default for Ride {
+    fn default() -> Self {
+        Self {
+            controllers: Vec::new(),
+            inputs: Vec::new(),
+            longest_step: f64::INFINITY,
+            end: f64::INFINITY,
+            goal: None,
+            warnings: Vec::new(),
+        }
+    }
 }
 
 /// Reads a maneuver with `PATH=VALUE` overrides.
@@ -32,7 +55,7 @@ pub struct Ride {
 /// # Errors
 /// There is none of that name, or everything that is wrong in it.
 pub fn read(name: &str, changes: &[String]) -> Result<Maneuver, Failure> {
-    let (file, text) = library::maneuver(name)?;
+    let source = library::maneuver(name)?;
     let overrides = changes.iter().map(|change| match change.split_once('=') {
         Some((path, value)) if !path.is_empty() && !value.is_empty() => Ok((path.trim().to_owned(), value.trim().to_owned())),
         _ => Err(Failure::from(
@@ -42,27 +65,37 @@ pub fn read(name: &str, changes: &[String]) -> Result<Maneuver, Failure> {
     });
     let overrides = overrides.collect::<Result<Vec<_>, _>>()?;
     let mut findings = Findings::new();
-    let maneuver = motorcycle::maneuver::read(&file, &text, &overrides, &mut findings);
+    let maneuver = motorcycle::maneuver::read(&source.file, &source, &overrides, &mut findings);
     match maneuver {
         Some(maneuver) => Ok(maneuver),
         None => Err(Failure::Findings(findings.sorted())),
     }
 }
 
-/// Makes the rider of a maneuver.
+/// Makes the rider and the road of the maneuver of this name.
 ///
 /// # Errors
-/// The vehicle cannot be ridden.
-pub fn ride(maneuver: Maneuver, system: &Arc<System>) -> Result<Ride, Failure> {
+/// The vehicle cannot be ridden, or cannot feel the road.
+pub fn ride(name: &str, maneuver: Maneuver, system: &Arc<System>) -> Result<Ride, Failure> {
+    let course = &maneuver.course;
+    let road = maneuver.road.as_ref().map(|relief| road::under_wheels(relief, &course.path, system)).transpose()?;
+    let fastest = course.speed.range().1.max(1.0);
+    let longest_step = maneuver.road.map_or(f64::INFINITY, |relief| relief.shortest() / (STEPS_PER_BUMP * fastest));
+    let mut controllers: Vec<Box<dyn Controller>> = road.into_iter().map(|road| Box::new(road) as Box<dyn Controller>).collect();
+    if !course.torque_pulses.is_empty() && (maneuver.control == Control::None || maneuver.replay.is_some()) {
+        let finding = Finding::error("no_rider", "`torque_pulses` are torques of a rider, and `control: none` and `replay` have none");
+        return Err(finding.with_hint("`--signals FILE.csv` gives inputs over time").into());
+    }
     if maneuver.control == Control::None {
-        if !maneuver.course.torque_pulses.is_empty() {
-            let finding = Finding::error("no_rider", "`torque_pulses` are torques of a rider, and `control: none` has none");
-            return Err(finding.with_hint("`--signals FILE.csv` gives inputs over time").into());
-        }
-        return Ok(Ride { rider: None, goal: None, warnings: Vec::new() });
+        return Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, ..Ride::default() });
     }
     let task = Task { system, backend: "kinsol", wishes: &maneuver.rider, front_brake_share: FRONT_BRAKE_SHARE };
-    let end = maneuver.course.path.length();
+    if let Some(written) = &maneuver.replay {
+        let (replay, end) = replay(written, &library::maneuver(name)?, course.speed.first(), &task)?;
+        controllers.push(Box::new(replay));
+        return Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, end, ..Ride::default() });
+    }
+    let end = course.path.length();
     let designed = task.design(maneuver.course)?;
     let goal = Limit {
         name: GOAL.into(),
@@ -72,5 +105,6 @@ pub fn ride(maneuver: Maneuver, system: &Arc<System>) -> Result<Ride, Failure> {
         nominal: 1.0,
         about: "the path ends".into(),
     };
-    Ok(Ride { rider: Some(designed.rider), goal: Some(goal), warnings: designed.warnings })
+    controllers.push(Box::new(designed.rider));
+    Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, goal: Some(goal), warnings: designed.warnings, ..Ride::default() })
 }

@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 const UNSTABLE: f64 = 1e-6;
 
 /// Heights of the road under the wheels.
-const ROADS: [&str; 2] = ["front_road.height", "rear_road.height"];
+pub const ROADS: [&str; 2] = ["front_road.height", "rear_road.height"];
 
 /// Under which wheels the road is uneven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

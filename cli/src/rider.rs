@@ -3,13 +3,14 @@
 //! The order is: assemble, trim, linearize, gains, rider. Nothing is tuned by hand; what the user may choose is what counts as much as what.
 
 use crate::Failure;
+use crate::lateral::{self, Steering, steer};
 use crate::output::Point;
 use crate::output::rider::RiderAlong;
 use crate::plan::{Prescribed, Request, Turn, base_name};
 use crate::small_motions::SmallMotions;
 use crate::steady;
 use analyses::LinearModel;
-use analyses::regulator::{Actuator, Course as Line, Design, Regulator, follow};
+use analyses::regulator::{Actuator, Course as Line, Design, Regulator};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{System, TreePlant};
 use motorcycle::maneuver::{Course, RiderDescription};
@@ -150,13 +151,14 @@ impl Task<'_> {
         let models = self.linear(&steady)?;
         let held: Vec<String> = models[0].states.iter().map(|s| s.signal.name.to_string()).filter(|n| is_held(n, &base)).collect();
         let (design, actuator) = (self.wanted(&reins, &held), self.actuator());
-        let regulators = self.regulators(&steady, &models, &base, &plant, &design)?;
-        let feedback = regulators[0].states.clone();
-        let layout = RowLayout { feedback: feedback.len(), preview: regulators[0].preview.weights.len(), human: actuator.states() };
+        let steerings = self.steerings(&steady, &models, &base, &plant, &design)?;
+        let feedback = steerings[0].regulator.states.clone();
+        let layout =
+            RowLayout { feedback: feedback.len(), preview: steerings[0].regulator.preview.weights.len(), human: actuator.states() };
         let per_speed = if reins.commands.len() == 4 { self.driving(&speeds, &steady, laterals.len())? } else { Driving::none(&speeds) };
         let value = |point: &Point, name: &str| steady.signals.iter().position(|s| s.name == *name).map_or(0.0, |k| point.value(k));
-        let rows: Vec<Vec<f64>> = (steady.points.iter().zip(&regulators).enumerate())
-            .map(|(k, (point, regulator))| {
+        let rows: Vec<Vec<f64>> = (steady.points.iter().zip(&steerings).enumerate())
+            .map(|(k, (point, Steering { regulator, integral_gain, lead }))| {
                 let mut row = vec![0.0; layout.width()];
                 for (i, name) in feedback.iter().enumerate() {
                     (row[i], row[layout.gain(i)]) = (value(point, name), regulator.gains[i]);
@@ -166,22 +168,24 @@ impl Task<'_> {
                 row[layout.drive()] = reins.commands.get(1).map_or(0.0, |drive| value(point, drive));
                 row[layout.torque_per_acceleration()] = per_speed.torque_per_acceleration[k / laterals.len()];
                 row[layout.slip()] = value(point, &reins.base[4]).atan2(value(point, &reins.base[3]));
+                (row[layout.integral()], row[layout.lead()]) = (*integral_gain, *lead);
                 regulator.preview.weights.iter().enumerate().for_each(|(i, w)| row[layout.preview(i)] = *w);
                 regulator.actuator_gains.iter().enumerate().for_each(|(i, g)| row[layout.human_gain(i)] = *g);
                 row
             })
             .collect();
         let roll = format!("{base}.roll");
-        let nodes = steady.points.iter().zip(&regulators).map(|(p, r)| Node {
+        let nodes = steady.points.iter().zip(&steerings).map(|(p, s)| Node {
             speed: p.given[0],
             lateral_acceleration: p.given[1],
             roll: value(p, &roll),
-            regulator: r.clone(),
+            regulator: s.regulator.clone(),
         });
         let nodes = nodes.collect();
         let settings = Settings {
+            lateral: lateral::law(self.wishes.lateral),
             lead: LEAD,
-            interval: regulators[0].preview.interval,
+            interval: steerings[0].regulator.preview.interval,
             greatest_torque: self.wishes.greatest_torque.map_or(GREATEST_TORQUE, |q| q.si()),
             greatest_drive: f64::INFINITY,
             speed_gain: 2.0 * SPEED_BANDWIDTH,
@@ -219,7 +223,8 @@ impl Task<'_> {
             let model = model.as_ref().map_err(String::clone)?;
             let mut found = Err(String::new());
             for preview in self.previews() {
-                found = follow(model, &line(point, &plant, &base), &design(preview)).map_err(|e| e.to_string());
+                let steered = steer(self.wishes.lateral, model, &line(point, &plant, &base), &design(preview), &base);
+                found = steered.map(|s| s.regulator).map_err(|e| e.to_string());
                 if found.as_ref().map_or(true, |r| r.preview.tail < FAR_ENOUGH) {
                     break;
                 }
@@ -264,7 +269,7 @@ impl Task<'_> {
 
     /// Previews to be tried, s.
     fn previews(&self) -> Vec<f64> {
-        self.wishes.preview.map_or(PREVIEWS.to_vec(), |wanted| vec![wanted.si()])
+        lateral::previews(self.wishes.lateral, self.wishes.preview.map_or(PREVIEWS.to_vec(), |wanted| vec![wanted.si()]))
     }
 
     fn motions<'a>(&'a self, request: &'a Request) -> SmallMotions<'a> {
@@ -278,28 +283,28 @@ impl Task<'_> {
         models.map_err(|why| Finding::error("no_linear_model", format!("the rider cannot be made: {why}")).into())
     }
 
-    /// A regulator at every point, all with one preview that is long enough.
-    fn regulators(
+    /// The steering at every point, all with one preview that is long enough.
+    fn steerings(
         &self,
         steady: &steady::Steady,
         models: &[LinearModel],
         base: &str,
         plant: &TreePlant,
         design: &(dyn Fn(f64) -> Design + Sync),
-    ) -> Result<Vec<Regulator>, Failure> {
+    ) -> Result<Vec<Steering>, Failure> {
         let mut found = Vec::new();
         for preview in self.previews() {
             let design = design(preview);
-            let regulators: Result<Vec<Regulator>, Failure> = (steady.points.par_iter().zip(models))
+            let steerings: Result<Vec<Steering>, Failure> = (steady.points.par_iter().zip(models))
                 .map(|(point, model)| {
-                    follow(model, &line(point, plant, base), &design).map_err(|why| {
+                    steer(self.wishes.lateral, model, &line(point, plant, base), &design, base).map_err(|why| {
                         let message = format!("no rider at {:.1} m/s and {:.1} m/s² to the side: {why}", point.given[0], point.given[1]);
                         Finding::error("no_rider", message).into()
                     })
                 })
                 .collect();
-            found = regulators?;
-            if found.iter().all(|r| r.preview.tail < FAR_ENOUGH) {
+            found = steerings?;
+            if found.iter().all(|s| s.regulator.preview.tail < FAR_ENOUGH) {
                 break;
             }
         }
@@ -358,7 +363,7 @@ fn is_held(name: &str, base: &str) -> bool {
 }
 
 /// Name of the base of a vehicle that somebody may ride.
-fn ridable(plant: &TreePlant) -> Result<String, Failure> {
+pub(crate) fn ridable(plant: &TreePlant) -> Result<String, Failure> {
     let missing = || Finding::error("no_vehicle_base", "this model has no vehicle base, so nobody can ride it");
     base_name(plant).ok_or_else(|| missing().into())
 }
@@ -372,7 +377,7 @@ fn line(point: &Point, plant: &TreePlant, base: &str) -> Line {
 }
 
 /// What a rider can read and command on this vehicle.
-fn reins(plant: &TreePlant, base: &str) -> Result<Reins, Failure> {
+pub(crate) fn reins(plant: &TreePlant, base: &str) -> Result<Reins, Failure> {
     let input = |name: &str| plant.inputs().iter().any(|i| i.signal.name == name);
     if !input("steer.torque") {
         let finding = Finding::error("missing_input", "this model has no input `steer.torque`, so nobody can steer it");

@@ -6,6 +6,7 @@
 
 pub mod aero;
 pub mod brake;
+mod chain_rule;
 pub mod drivetrain;
 pub mod handling;
 mod kinds;

@@ -11,6 +11,7 @@ mod info;
 mod linearize;
 mod map;
 mod modes;
+mod replay;
 mod run;
 mod schema;
 mod slalom;

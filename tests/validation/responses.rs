@@ -114,13 +114,13 @@ fn profiles_have_the_density_of_their_class() {
     let mut density = vec![0.0; SEGMENT / 2];
     for seed in 0..PROFILES {
         let profile = smooth.profile(seed, 400);
-        let heights: Vec<f64> = (0..SAMPLES).map(|k| profile.at(STEP * k as f64).0).collect();
+        let heights: Vec<f64> = (0..SAMPLES).map(|k| profile.at(STEP * k as f64).value).collect();
         let estimate = welch(&heights, STEP, SEGMENT);
         density.iter_mut().zip(&estimate).for_each(|(d, e)| *d += e / PROFILES as f64);
     }
     for class in CLASSES {
         let road = Roughness::from(class);
-        let larger = (road.profile(3, 50).at(17.0).0 / smooth.profile(3, 50).at(17.0).0).powi(2);
+        let larger = (road.profile(3, 50).at(17.0).value / smooth.profile(3, 50).at(17.0).value).powi(2);
         agreement.near(&format!("class {}: size", class.name), larger, class.level / 16e-6, &relative(1e-12).because("double precision"));
         for octave in 0..7 {
             let low = 0.02 * f64::from(1 << octave);

@@ -13,8 +13,10 @@ mod motion;
 mod recorded;
 mod responses;
 mod ride;
+mod roads;
 mod sensitivity;
 mod trim;
+mod two_loops;
 
 use validation::evidence;
 
@@ -34,6 +36,8 @@ fn the_table_of_evidence_is_up_to_date() {
             invariance::EVIDENCE,
             sensitivity::EVIDENCE,
             ride::EVIDENCE,
+            roads::EVIDENCE,
+            two_loops::EVIDENCE,
         ],
     );
 }

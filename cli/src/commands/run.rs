@@ -123,7 +123,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         keep: scene.as_ref().map(Scene::signals),
     };
     let system = &loaded.assembled.system;
-    let ride = maneuver.map(|maneuver| maneuver::ride(maneuver, system)).transpose()?;
+    let ride = arguments.maneuver.as_deref().zip(maneuver).map(|(name, maneuver)| maneuver::ride(name, maneuver, system)).transpose()?;
     let mut history = motion::run(&request, system, &loaded.name, ride)?;
     history.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(|f| f.to_string()));
     let (reached, outcome) = (history.outcome.statistics.time, &history.outcome);

@@ -1,6 +1,7 @@
 //! A motion over time from options: where it starts, which inputs act, which method follows it, and what is told about it.
 
 mod account;
+mod acting;
 mod condition;
 mod start;
 mod table;
@@ -17,7 +18,7 @@ use analyses::transient::{Cause, Method, Simulation, Start, Trajectory, Transien
 use analyses::{ClosedLoop, Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
-use problem::{Controller, Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
+use problem::{Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -96,24 +97,24 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     }
     // all levels of the constraints stand in the rows of GGL, so the explicit form is judged by them
     let tree = TreePlant::in_formulation(system.clone(), if explicit { Formulation::Ggl } else { formulation });
-    let (controllers, goal) = ride.map_or((Vec::new(), None), |ride| {
-        warnings.extend(ride.warnings);
-        (ride.rider.map(|rider| Box::new(rider) as Box<dyn Controller>).into_iter().collect(), ride.goal)
-    });
+    let Ride { controllers, inputs, longest_step: max_step, end, goal, warnings: of_ride } = ride.unwrap_or_default();
+    warnings.extend(of_ride);
     let mut plant = ClosedLoop::new(tree, controllers).map_err(|e| Finding::error("signal_clash", e.to_string()))?;
     let mut beginning = match &request.steady {
         Some(steady) => Beginning::steady(&plant, steady, system)?,
         None => Beginning::stated(&plant),
     };
+    acting::act(&inputs, &plant, &mut beginning.inputs)?;
     if let Some(file) = &request.signals {
         table::act(file, &plant, &[ENERGY, SUPPLIED, DISSIPATED], &mut beginning.inputs)?;
     }
     beginning.give(&request.given, &plant)?;
     let recorded = recorded(&request.record, &plant, system)?;
-    let mut transient = Transient::new(&plant, request.times.clone());
+    let mut transient = Transient::new(&plant, request.times.iter().copied().filter(|t| *t <= end).collect());
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
         absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),
+        max_step,
         ..IntegrationOptions::default()
     };
     transient.ends = condition::conditions(&request.until, &plant)?;

@@ -3,18 +3,24 @@
 //! A maneuver is a file of its own. Its path is a sequence of sections, each one kind ([`section::KINDS`]); its speed is constant, over time or along the path. Where
 //! nobody rides, the inputs stay at those of the steady state.
 
+mod columns;
+mod input;
 mod path;
 pub mod section;
 mod speed;
 
-pub use path::{Layout, Path, Place, Twice};
+pub use columns::columns;
+pub use input::{Amount, Moving, Piece};
+pub use path::{Layout, Path, Place, Progress, Twice};
 pub use section::{SectionDescription, SectionKind};
 pub use speed::Speed;
 
+use crate::road::{Relief, relief};
+use mbody::description::Library;
 use mbody::description::document::Document;
 use mbody::description::finding::{Finding, Findings};
-use mbody::description::quantity::dimension::{Length, Speed as SpeedDimension, Time, Torque};
-use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
+use mbody::description::quantity::dimension::{Length, Number, Speed as SpeedDimension, Time, Torque};
+use mbody::description::quantity::{Fraction, NonNegativeQuantity, PositiveQuantity, Quantity};
 use mbody::description::schema::Schema;
 use mbody::scalar::Pchip;
 use schemars::JsonSchema;
@@ -22,6 +28,7 @@ use schemars::generate::SchemaSettings;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Where to ride, how fast, and what disturbs.
 #[derive(Clone, Debug)]
@@ -99,10 +106,16 @@ pub struct Maneuver {
     pub about: String,
     /// Path, speed and disturbances.
     pub course: Course,
+    /// The road along the path; none where it is level.
+    pub road: Option<Arc<dyn Relief>>,
+    /// Inputs over time that nobody commands.
+    pub inputs: Vec<Moving>,
     /// Who rides.
     pub control: Control,
     /// How the rider is made.
     pub rider: RiderDescription,
+    /// The record that is repeated instead of a rider.
+    pub replay: Option<ReplayDescription>,
     /// When it is over, beside the end of the path: `SIGNAL>VALUE`.
     pub until: Vec<String>,
     /// Longest time, s; none: what the path takes, and a little more.
@@ -121,11 +134,25 @@ struct PulseDescription {
     duration: PositiveQuantity<Time>,
 }
 
+/// How a rider steers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LateralLaw {
+    /// Optimal feedback of all states and of the way ahead.
+    #[default]
+    Preview,
+    /// Two loops: the path asks for lean, lean asks for torque.
+    Pid,
+}
+
 /// Rider of a maneuver: what counts as much as what, and human limits.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RiderDescription {
-    /// Offset from the path that counts as much as the other values here; 0.15 m where left out.
+    /// How the rider steers: `preview` (where left out) or `pid`.
+    #[serde(default)]
+    pub lateral: LateralLaw,
+    /// Offset from the path that counts as much as the other values here; 0.15 m where left out. For `preview`, as `heading`.
     pub offset: Option<PositiveQuantity<Length>>,
     /// Heading error that counts as much; 0.05 rad where left out.
     pub heading: Option<PositiveQuantity<mbody::description::quantity::dimension::Angle>>,
@@ -133,12 +160,22 @@ pub struct RiderDescription {
     pub torque: Option<PositiveQuantity<Torque>>,
     /// Greatest steering torque; 150 N m where left out.
     pub greatest_torque: Option<PositiveQuantity<Torque>>,
-    /// How far the rider looks ahead; as far as it matters where left out.
+    /// How far the rider looks ahead; as far as it matters where left out (2 s for `pid`).
     pub preview: Option<PositiveQuantity<Time>>,
     /// Reaction time; none where left out.
     pub delay: Option<PositiveQuantity<Time>>,
     /// Natural frequency of the muscles; they follow at once where left out.
     pub muscles: Option<PositiveQuantity<mbody::description::quantity::dimension::AngularSpeed>>,
+}
+
+/// A recorded ride: its torques, and a weak feedback of what differs from it.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReplayDescription {
+    /// CSV file beside the maneuver: that of an earlier run, or measured under the same names.
+    pub file: String,
+    /// Share of the gains of the rider with preview, 0 to 1; 0.2 where left out.
+    pub gain: Option<Quantity<Number, Fraction>>,
 }
 
 /// The written form of a maneuver.
@@ -161,14 +198,20 @@ struct ManeuverDescription {
     speed_along_path: Option<Vec<(NonNegativeQuantity<Length>, NonNegativeQuantity<SpeedDimension>)>>,
     /// The path: sections one after the other, each one kind with its parameters.
     path: Vec<Value>,
+    /// The road along the path, one kind with its parameters; level where left out.
+    road: Option<Value>,
     /// Torques at the bar beside those of the rider.
     torque_pulses: Option<Vec<PulseDescription>>,
+    /// Inputs over time, each added to the value that it has at the start: wind, and what no rider commands.
+    inputs: Option<Vec<input::InputDescription>>,
     /// Who rides: `rider` (where left out) or `none`.
     #[serde(default)]
     control: Control,
     /// How the rider is made.
     #[serde(default)]
     rider: RiderDescription,
+    /// A recorded ride that is repeated instead of a rider.
+    replay: Option<ReplayDescription>,
     /// When it is over, beside the end of the path: conditions `SIGNAL>VALUE` or `SIGNAL<VALUE`.
     #[serde(default)]
     until: Vec<String>,
@@ -179,31 +222,36 @@ struct ManeuverDescription {
 /// The JSON Schema (draft 2020-12) of maneuvers.
 pub fn schema() -> Value {
     let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let sections: Vec<Value> = section::KINDS
-        .iter()
-        .map(|k| {
-            json!({
-                "type": "object",
-                "description": k.about,
-                "properties": { k.name: (k.schema)(&mut generator) },
-                "required": [k.name],
-                "additionalProperties": false
-            })
+    let one = |about: &str, name: &str, parameters: schemars::Schema| {
+        json!({
+            "type": "object",
+            "description": about,
+            "properties": { name: parameters },
+            "required": [name],
+            "additionalProperties": false
         })
-        .collect();
+    };
+    let sections: Vec<Value> = section::KINDS.iter().map(|k| one(k.about, k.name, (k.schema)(&mut generator))).collect();
+    let roads: Vec<Value> = relief::KINDS.iter().map(|k| one(k.about, k.name, (k.schema)(&mut generator))).collect();
     let mut root = generator.root_schema_for::<ManeuverDescription>().to_value();
     root["title"] = json!("FastBike maneuver");
     root["properties"]["path"]["items"] = json!({ "oneOf": sections });
     root["properties"]["path"]["minItems"] = json!(1);
+    let about = root["properties"]["road"]["description"].clone();
+    root["properties"]["road"] = json!({ "description": about, "oneOf": roads });
     root
 }
 
-/// Reads a maneuver; `speed` (m/s) replaces its speed where it is given.
+/// Reads a maneuver with `(path, value)` overrides; the files that it names come from the library.
 ///
 /// # Errors
 /// Everything that is wrong, each at its line.
-pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &mut Findings) -> Option<Maneuver> {
-    let mut document = match Document::parse(file, text) {
+pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], findings: &mut Findings) -> Option<Maneuver> {
+    let Some(text) = library.text(file) else {
+        findings.push(Finding::error("missing_file", format!("file `{file}` cannot be read as text")));
+        return None;
+    };
+    let mut document = match Document::parse(file, &text) {
         Ok(document) => document,
         Err(errors) => {
             findings.extend(errors);
@@ -227,23 +275,37 @@ pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &m
     if findings.has_errors() {
         return None;
     }
-    let written: ManeuverDescription = match document.read("") {
+    let mut written: ManeuverDescription = match document.read("") {
         Ok(written) => written,
         Err(errors) => {
             findings.extend(errors);
             return None;
         }
     };
+    let all = |findings: &mut Findings, path: &str, wrong: &Findings| {
+        below(path, wrong).iter().for_each(|finding| findings.push(document.locate(finding.clone())));
+    };
     let mut layout = Layout::default();
     for (k, entry) in written.path.iter().enumerate() {
-        let Some((name, value)) = entry.as_object().and_then(|o| o.iter().next()) else { continue };
+        let Some((name, value)) = single(entry) else { continue };
         let Some(kind) = section::KINDS.iter().find(|k| k.name == name) else { continue };
-        if let Err(wrong) = (kind.lay)(value, &mut layout) {
-            for finding in wrong.iter() {
-                let below = if finding.path.is_empty() { String::new() } else { format!(".{}", finding.path) };
-                let path = format!("path.{k}.{name}{below}");
-                findings.push(document.locate(finding.clone().at_path(path)));
-            }
+        if let Err(wrong) = (kind.lay)(value, &mut layout, library) {
+            all(findings, &format!("path.{k}.{name}"), &wrong);
+        }
+    }
+    let mut road = None;
+    let of_road = written.road.as_ref().and_then(single);
+    if let Some((kind, value)) = of_road.and_then(|(name, value)| Some((relief::KINDS.iter().find(|k| k.name == name)?, value))) {
+        match (kind.make)(value, library) {
+            Ok(made) => road = made,
+            Err(wrong) => all(findings, &format!("road.{}", kind.name), &wrong),
+        }
+    }
+    let mut inputs = Vec::new();
+    for (k, entry) in written.inputs.take().into_iter().flatten().enumerate() {
+        match entry.moving() {
+            Ok(moving) => inputs.push(moving),
+            Err(wrong) => all(findings, &format!("inputs.{k}"), &wrong),
         }
     }
     let speed = match target(&written) {
@@ -265,11 +327,28 @@ pub fn read(file: &str, text: &str, overrides: &[(String, String)], findings: &m
         name: written.name,
         about: written.about.unwrap_or_default(),
         course: Course { path: layout.path(), speed: speed?, torque_pulses },
+        road,
+        inputs,
         control: written.control,
         rider: written.rider,
+        replay: written.replay,
         until: written.until,
         duration: written.duration.map(|d| d.si()),
     })
+}
+
+/// The only entry of an object.
+fn single(entry: &Value) -> Option<(&str, &Value)> {
+    entry.as_object()?.iter().next().map(|(name, value)| (name.as_str(), value))
+}
+
+/// Findings of a part of the maneuver, at their paths from the whole.
+pub(crate) fn below(path: &str, findings: &Findings) -> Findings {
+    let at = |finding: &Finding| {
+        let path = if finding.path.is_empty() { path.to_owned() } else { format!("{path}.{}", finding.path) };
+        finding.clone().at_path(path)
+    };
+    findings.iter().map(at).collect()
 }
 
 /// The target speed; where it is not a curve, the key and why.

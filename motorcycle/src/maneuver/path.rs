@@ -18,6 +18,9 @@ pub const BEYOND: f64 = 200.0;
 /// What a path has before its start, m.
 const BEFORE: f64 = 20.0;
 
+/// Rate at which an arc length follows who is ahead of it, 1/s.
+const CATCH_UP: f64 = 5.0;
+
 /// A curve by arc length.
 #[derive(Clone, Debug)]
 pub struct Path {
@@ -41,7 +44,38 @@ pub struct Place<S> {
     pub curvature: S,
 }
 
+/// Where somebody is against a path.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<S> {
+    /// The place on the path.
+    pub place: Place<S>,
+    /// Distance to the left of it, m.
+    pub offset: S,
+    /// Heading against that of the path, rad.
+    pub heading_error: S,
+    /// Speed of the nearest place along the path, m/s.
+    pub along: S,
+    /// Rate of the arc length, m/s: that speed, and what brings the arc length to the nearest place.
+    pub rate: S,
+}
+
 impl Path {
+    /// Progress along the path of who is at x, y (m), heads for an angle (rad) and moves forward and to the left (m/s).
+    ///
+    /// The arc length s is a state of whoever asks: `ṡ = (V_x cos ψ_e − V_y sin ψ_e)/(1 − κ e) + k_s e_t`, with the offset e, the heading error `ψ_e = ψ − ψ_p(s)` and
+    /// the distance e_t by which he is ahead of s along the path. There is no search, and it can be differentiated. Source: theory manual 10.1.
+    #[inline]
+    pub fn progress<S: Real>(&self, s: S, [x, y, heading, forward, lateral]: [S; 5]) -> Progress<S> {
+        let place = self.at(s);
+        let (sine, cosine) = place.heading.sin_cos();
+        let (dx, dy) = (x - place.x, y - place.y);
+        let (ahead, offset) = (cosine * dx + sine * dy, cosine * dy - sine * dx);
+        let heading_error = heading - place.heading;
+        let (se, ce) = heading_error.sin_cos();
+        let along = (forward * ce - lateral * se) / (-(place.curvature * offset) + 1.0);
+        Progress { place, offset, heading_error, along, rate: along + ahead * CATCH_UP }
+    }
+
     /// Arc length of what was laid, m.
     pub fn length(&self) -> f64 {
         self.length

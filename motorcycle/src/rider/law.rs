@@ -1,28 +1,22 @@
 //! The laws of the virtual rider, generic over the scalar.
 //!
-//! **Where it is.** Arc length s on the path, a state: `ṡ = (V_x cos ψ_e − V_y sin ψ_e)/(1 − κ e) + k_s e_t`, with the offset e (positive to the left of the
-//! path), the heading error `ψ_e = ψ − ψ_p(s)` and the distance e_t by which the base point is ahead of s along the path.
+//! **Where it is.** Arc length s on the path, a state, offset e (positive to the left of the path) and heading error ψ_e: [`crate::maneuver::Path::progress`].
 //!
-//! **Steering.** `τ = τ₀ − K (x − x₀) − K_e e − K_ψ (ψ_e + β₀) + Σ wᵢ (κ(s + V tᵢ) − κ₀)`: steady state x₀, τ₀ with its slip angle `β₀ = atan(V_y/V_x)`, gains K and
-//! weights w all of the present speed and of the lateral acceleration `a₀ = V² κ(s + V t₀)`, `κ₀ = a₀/V²`. The torque is bounded smoothly by
-//! `τ/(1 + (τ/τ_max)⁸)^⅛`, then delayed (Padé, second order) and lagged by the muscles where that is asked for.
+//! **Steering.** One of two laws, [`super::preview`] or [`super::cascade`], gives the torque. It is bounded smoothly by `τ/(1 + (τ/τ_max)⁸)^⅛`, then delayed (Padé, second order) and
+//! lagged by the muscles where that is asked for.
 //!
 //! **Speed.** Demanded acceleration `b = b_t + k_v (V_t − V) + k_i ∫(V_t − V) dt` with the target V_t of the maneuver and its rate b_t; wheel torque
 //! `T = T₀ + M b`. The engine takes what is positive, the brakes what is negative, with the front share `p = p₀ − p₁ b`; near zero both change over by a smooth ramp.
 //!
-//! Symbols: V_x, V_y speed of the base point, m/s; κ curvature, 1/m, positive to the left; τ steering torque, N m; M wheel torque per acceleration, N s²;
-//! t₀ lead of the schedule, s.
+//! Symbols: V_x, V_y speed of the base point, m/s; τ steering torque, N m; M wheel torque per acceleration, N s².
 //!
-//! Source: theory manual 10.1 (arc length as a state), 10.2, 10.4, 10.6; R. S. Sharp, Proc. IMechE C 221 (2007) 337–346 (preview). Range: speeds within the
-//! table of the schedule; beyond it the gains of its edge hold. Offsets below the radius of the path.
+//! Source: theory manual 10.1 (arc length as a state), 10.2, 10.6. Range: speeds within the table of the schedule; beyond it the gains of its edge hold. Offsets below the
+//! radius of the path.
 
-use super::Rider;
 use super::schedule::Row;
+use super::{Lateral, Rider};
 use mbody::scalar::Real;
 use mbody::scalar::smooth::{ramp, sabs};
-
-/// Rate at which the arc length follows the base point, 1/s.
-const CATCH_UP: f64 = 5.0;
 
 /// Wheel torque over which drive and brakes change over, N m.
 const CHANGE_OVER: f64 = 10.0;
@@ -31,7 +25,7 @@ const CHANGE_OVER: f64 = 10.0;
 const SLOW: f64 = 0.5;
 
 /// Most commands, states and outputs.
-pub(super) const MOST: usize = 8;
+pub(super) const MOST: usize = 9;
 
 /// What the laws give.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,7 +36,7 @@ pub(super) struct Reply<S> {
 }
 
 /// A value bounded smoothly: `x/(1 + (x/bound)⁸)^⅛`.
-fn bounded<S: Real>(x: S, bound: f64) -> S {
+pub(super) fn bounded<S: Real>(x: S, bound: f64) -> S {
     let u = x / bound;
     // far beyond the bound the power would overflow
     if u.value().abs() > 1e6 {
@@ -55,8 +49,11 @@ impl Rider {
     /// Speed and lateral acceleration for which the schedule is read.
     pub(super) fn scheduled<S: Real>(&self, z: &[S], x: &[S]) -> (S, S) {
         let V = sabs(z[3], SLOW);
-        let (s, [low, high]) = (x[0], self.acceleration_range());
-        let a = V * V * self.course.path.curvature(s + V * self.settings.lead);
+        let [low, high] = self.acceleration_range();
+        let a = match self.settings.lateral {
+            Lateral::Preview => self.coming(x[0], V),
+            Lateral::Cascade(_) => x[self.loop_states()],
+        };
         // the edges of the table are approached, not met
         let middle = 0.5 * (low + high);
         (V, bounded(a - middle, 0.5 * (high - low)) + middle)
@@ -64,42 +61,20 @@ impl Rider {
 
     /// Commands, rates of the states and outputs. z: x, y, heading, forward and lateral speed, then what is fed back; `row` is that of [`Rider::scheduled`].
     pub(super) fn law<S: Real>(&self, time: f64, z: &[S], x: &[S], row: &Row, at: (S, S)) -> Reply<S> {
-        let (V, a) = at;
         let mut reply = Reply::default();
-        // where it is on the path
-        let s = x[0];
-        let place = self.course.path.at(s);
-        let (sine, cosine) = place.heading.sin_cos();
-        let (dx, dy) = (z[0] - place.x, z[1] - place.y);
-        let (ahead, offset) = (cosine * dx + sine * dy, cosine * dy - sine * dx);
-        let error = z[2] - place.heading;
-        let lateral_speed = z[4];
-        let (se, ce) = error.sin_cos();
-        let along = (z[3] * ce - lateral_speed * se) / (-(place.curvature * offset) + 1.0);
-        reply.rates[0] = along + ahead * CATCH_UP;
-        // steering
-        let n = self.layout.feedback;
         let entry = |k: usize| row.entry(k, at);
-        let mut torque = entry(self.layout.torque());
-        for k in 0..n {
-            torque -= entry(self.layout.gain(k)) * (z[5 + k] - entry(k));
-        }
-        torque -= entry(self.layout.path_gain(0)) * offset;
-        torque -= entry(self.layout.path_gain(1)) * (error + entry(self.layout.slip()));
-        let present = a / (V * V);
-        for k in 0..self.layout.preview {
-            let seen = self.course.path.curvature(s + V * (k as f64 * self.settings.interval));
-            torque += entry(self.layout.preview(k)) * (seen - present);
-        }
+        let s = x[0];
+        let progress = self.course.path.progress(s, [z[0], z[1], z[2], z[3], z[4]]);
+        reply.rates[0] = progress.rate;
         let human = &x[self.human_states()..];
-        let steady = self.human_at(entry(self.layout.torque()));
-        for k in 0..self.layout.human {
-            torque -= entry(self.layout.human_gain(k)) * (human[k] - steady[k]);
-        }
+        let torque = match self.settings.lateral {
+            Lateral::Preview => self.previewing(z, (s, human), row, at, &progress),
+            Lateral::Cascade(settings) => self.cascading((z, x), row, at, &progress, (settings, self.loop_states()), &mut reply),
+        };
         let torque = bounded(torque, self.settings.greatest_torque);
         reply.commands[0] = self.human(torque, human, &mut reply.rates) + self.course.pulses(time);
         // speed
-        let (target, wanted) = self.course.speed.at(time, s, along);
+        let (target, wanted) = self.course.speed.at(time, s, progress.along);
         if let Some(integral) = self.speed_state() {
             let (lag, sum) = (target - z[3], x[integral]);
             let demanded = wanted + lag * self.settings.speed_gain + sum * self.settings.speed_integral_gain;
@@ -117,7 +92,9 @@ impl Rider {
             reply.commands[2] = braked * share;
             reply.commands[3] = braked * (-share + 1.0);
         }
-        reply.outputs = [offset, error, place.curvature, target, place.x, place.y, a, S::zero()];
+        let place = &progress.place;
+        let (offset, error) = (progress.offset, progress.heading_error);
+        reply.outputs[..7].copy_from_slice(&[offset, error, place.curvature, target, place.x, place.y, at.1]);
         reply
     }
 

@@ -3,10 +3,15 @@
 //! [`Rider`] is a [`Controller`]: it reads coordinates and velocities and commands steering torque, wheel torque and brake torques. Its laws are in `law.rs`; what
 //! it knows of the machine, steady states and gains, is a table ([`schedule`]) that somebody else computed from the model: nothing here is tuned by hand.
 
+pub mod cascade;
 mod law;
+mod preview;
+pub mod replay;
 pub mod schedule;
 
+use crate::chain_rule::along_directions;
 use crate::maneuver::Course;
+use cascade::CascadeSettings;
 use law::MOST;
 use mbody::scalar::{Lanes, SystemScalar};
 use problem::{Answer, AnswerAlong, Controller, EvalError, Matrix, Signal, Unknown, UnknownKind};
@@ -23,9 +28,20 @@ pub struct Reins {
     pub commands: Vec<String>,
 }
 
+/// How a rider steers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lateral {
+    /// Feedback of all states, and of the way ahead.
+    Preview,
+    /// The path asks for lean, lean asks for torque.
+    Cascade(CascadeSettings),
+}
+
 /// Numbers of a rider.
 #[derive(Clone, Debug)]
 pub struct Settings {
+    /// How he steers.
+    pub lateral: Lateral,
     /// How far ahead the curvature is taken for which the schedule is read, s.
     pub lead: f64,
     /// Time between two samples of the path ahead, s.
@@ -84,17 +100,25 @@ impl RowLayout {
     pub fn slip(&self) -> usize {
         2 * self.feedback + 5
     }
+    /// Gain of the integral of the lean.
+    pub fn integral(&self) -> usize {
+        2 * self.feedback + 6
+    }
+    /// Change of the lean per lateral acceleration.
+    pub fn lead(&self) -> usize {
+        2 * self.feedback + 7
+    }
     /// Weight of a sample ahead.
     pub fn preview(&self, k: usize) -> usize {
-        2 * self.feedback + 6 + k
+        2 * self.feedback + 8 + k
     }
     /// Gain of a state of delay and muscles.
     pub fn human_gain(&self, k: usize) -> usize {
-        2 * self.feedback + 6 + self.preview + k
+        2 * self.feedback + 8 + self.preview + k
     }
     /// Length of a row.
     pub fn width(&self) -> usize {
-        2 * self.feedback + 6 + self.preview + self.human
+        2 * self.feedback + 8 + self.preview + self.human
     }
 }
 
@@ -116,18 +140,41 @@ pub struct Rider {
 /// The scalar of the rider's own derivatives: as many directions as it reads signals, in one or two sweeps.
 type Wide = Lanes<6>;
 
-fn state(name: &str, unit: &'static str, about: &'static str, start: f64, (nominal, tolerance): (f64, f64)) -> Unknown {
-    Unknown {
-        signal: Signal::new(name, unit, about),
-        kind: UnknownKind::State,
-        cyclic: false,
-        differential: true,
-        nominal,
-        absolute_tolerance: tolerance,
-        design: start,
-        start: Some(start),
+/// A state of a rider, zero at the start.
+struct State {
+    name: &'static str,
+    unit: &'static str,
+    about: &'static str,
+    nominal: f64,
+    tolerance: f64,
+}
+
+impl State {
+    fn unknown(&self) -> Unknown {
+        Unknown {
+            signal: Signal::new(self.name, self.unit, self.about),
+            kind: UnknownKind::State,
+            cyclic: false,
+            differential: true,
+            nominal: self.nominal,
+            absolute_tolerance: self.tolerance,
+            design: 0.0,
+            start: Some(0.0),
+        }
     }
 }
+
+const STATION: State = State { name: "rider.station", unit: "m", about: "arc length on the path", nominal: 10.0, tolerance: 1e-5 };
+const SPEED_INTEGRAL: State =
+    State { name: "rider.speed_integral", unit: "m", about: "integral of the speed error", nominal: 1.0, tolerance: 1e-5 };
+const DELAY: [State; 2] = [
+    State { name: "rider.delay", unit: "N m s^2", about: "torque on its way, integrated twice", nominal: 0.1, tolerance: 1e-6 },
+    State { name: "rider.delay_rate", unit: "N m s", about: "torque on its way, integrated once", nominal: 1.0, tolerance: 1e-5 },
+];
+const MUSCLES: [State; 2] = [
+    State { name: "rider.muscle_torque", unit: "N m", about: "torque that the muscles have built up", nominal: 10.0, tolerance: 1e-4 },
+    State { name: "rider.muscle_torque_rate", unit: "N m/s", about: "rate of the torque of the muscles", nominal: 100.0, tolerance: 1e-3 },
+];
 
 impl Rider {
     /// A rider on a course. `None` where the table has another width than its layout says, or the speed is held without its inputs.
@@ -135,21 +182,16 @@ impl Rider {
         let holds_speed = reins.commands.len() == 4;
         let human = 2 * usize::from(settings.delay.is_some()) + 2 * usize::from(settings.lag.is_some());
         let fits = table.width() == layout.width() && layout.human == human && reins.feedback.len() == layout.feedback;
-        if !fits || !(holds_speed || reins.commands.len() == 1) {
+        let in_loops = settings.lateral == Lateral::Preview || layout.feedback == cascade::FEEDBACK.len();
+        if !fits || !in_loops || !(holds_speed || reins.commands.len() == 1) {
             return None;
         }
-        let mut states = vec![state("rider.station", "m", "arc length on the path", 0.0, (10.0, 1e-5))];
-        if holds_speed {
-            states.push(state("rider.speed_integral", "m", "integral of the speed error", 0.0, (1.0, 1e-5)));
-        }
-        if settings.delay.is_some() {
-            states.push(state("rider.delay", "N m s^2", "torque on its way, integrated twice", 0.0, (0.1, 1e-6)));
-            states.push(state("rider.delay_rate", "N m s", "torque on its way, integrated once", 0.0, (1.0, 1e-5)));
-        }
-        if settings.lag.is_some() {
-            states.push(state("rider.muscle_torque", "N m", "torque that the muscles have built up", 0.0, (10.0, 1e-4)));
-            states.push(state("rider.muscle_torque_rate", "N m/s", "rate of the torque of the muscles", 0.0, (100.0, 1e-3)));
-        }
+        let delay = settings.delay.iter().flat_map(|_| &DELAY);
+        let muscles = settings.lag.iter().flat_map(|_| &MUSCLES);
+        let loops: &[State] = if settings.lateral == Lateral::Preview { &[] } else { &cascade::STATES };
+        let integral = holds_speed.then_some(&SPEED_INTEGRAL);
+        let states: Vec<Unknown> =
+            [&STATION].into_iter().chain(integral).chain(delay).chain(muscles).chain(loops).map(State::unknown).collect();
         let signal = |name: &str, unit: &'static str, about: &'static str| Signal::new(name, unit, about);
         let outputs = vec![
             signal("rider.path_error", "m", "offset of the base point from the path, positive to the left"),
@@ -185,7 +227,7 @@ impl Rider {
     /// Lets delay and muscles begin where they hold a steady torque, N m.
     pub fn start_with(&mut self, torque: f64) {
         let (first, steady) = (self.human_states(), self.human_at(torque));
-        for (state, start) in self.states[first..].iter_mut().zip(steady) {
+        for (state, start) in self.states[first..].iter_mut().zip(steady).take(self.layout.human) {
             (state.start, state.design) = (Some(start), start);
         }
     }
@@ -203,6 +245,11 @@ impl Rider {
     /// First state of delay and lag.
     fn human_states(&self) -> usize {
         1 + usize::from(self.speed_state().is_some())
+    }
+
+    /// First state of the loops of lean and path.
+    fn loop_states(&self) -> usize {
+        self.human_states() + self.layout.human
     }
 
     /// Derivatives of commands, rates and outputs by all that is read: rows in this order.
@@ -281,18 +328,7 @@ impl Controller for Rider {
     ) -> Result<(), EvalError> {
         self.answer(time, measured, states, answer)?;
         self.differentiate(time, measured, states);
-        let m = measured.len();
-        let mut row = 0;
-        for part in [along.commands, along.rates, along.outputs] {
-            for i in 0..part.rows() {
-                for j in 0..part.columns() {
-                    let by_z: f64 = by_measured.column(j).iter().enumerate().map(|(k, d)| self.jacobian[(row, k)] * d).sum();
-                    let by_x: f64 = by_states.column(j).iter().enumerate().map(|(k, d)| self.jacobian[(row, m + k)] * d).sum();
-                    part[(i, j)] = by_z + by_x;
-                }
-                row += 1;
-            }
-        }
+        along_directions(&self.jacobian, (by_measured, by_states), along);
         Ok(())
     }
 }

@@ -1,5 +1,9 @@
 //! Roads: what stands under the wheels.
 
+mod passing;
+pub mod relief;
 mod roughness;
 
+pub use passing::{Passing, Tracks};
+pub use relief::{Relief, ReliefDescription, ReliefKind};
 pub use roughness::{BAND, CLASSES, Profile, RoadClass, Roughness};

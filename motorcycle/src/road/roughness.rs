@@ -18,6 +18,7 @@
 //! Source: ISO 8608 (2016), 5.1 and table C.1 (geometric means of the classes); M. Shinozuka, C.-M. Jan, J. Sound Vib. 25 (1972) 111–128 (sums of
 //! cosines); random numbers: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014 (SplitMix64). Range: 0.011 to 2.83 1/m; beyond it the line goes on.
 
+use mbody::scalar::spline::CurvePoint;
 use std::f64::consts::TAU;
 
 /// Spatial frequency to which the level refers, 1/m.
@@ -115,12 +116,16 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Height (m) and slope at a distance (m) along the line.
-    pub fn at(&self, distance: f64) -> (f64, f64) {
-        self.waves.iter().fold((0.0, 0.0), |(height, slope), wave| {
+    /// Height (m), slope and second derivative (1/m) at a distance (m) along the line.
+    pub fn at(&self, distance: f64) -> CurvePoint<f64> {
+        let mut at = CurvePoint { value: 0.0, slope: 0.0, curvature: 0.0 };
+        for wave in &self.waves {
             let (sin, cos) = (wave.number * distance + wave.phase).sin_cos();
-            (height + wave.amplitude * cos, slope - wave.amplitude * wave.number * sin)
-        })
+            at.value += wave.amplitude * cos;
+            at.slope -= wave.amplitude * wave.number * sin;
+            at.curvature -= wave.amplitude * wave.number * wave.number * cos;
+        }
+        at
     }
 }
 
@@ -166,10 +171,10 @@ mod tests {
         assert!((carried / road.mean_square(BAND) - 1.0).abs() < 1e-12);
         for x in [0.0, 13.7, 4e3] {
             let h = 1e-4;
-            let difference = (profile.at(x + h).0 - profile.at(x - h).0) / (2.0 * h);
-            assert!((profile.at(x).1 - difference).abs() < 1e-5, "{} {difference}", profile.at(x).1);
+            let difference = (profile.at(x + h).value - profile.at(x - h).value) / (2.0 * h);
+            assert!((profile.at(x).slope - difference).abs() < 1e-5, "{} {difference}", profile.at(x).slope);
         }
-        assert_eq!(road.profile(7, 300).at(5.0), profile.at(5.0));
-        assert_ne!(road.profile(8, 300).at(5.0), profile.at(5.0));
+        assert_eq!(road.profile(7, 300).at(5.0).value, profile.at(5.0).value);
+        assert_ne!(road.profile(8, 300).at(5.0).value, profile.at(5.0).value);
     }
 }

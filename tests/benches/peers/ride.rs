@@ -5,7 +5,7 @@ use analyses::ClosedLoop;
 use analyses::transient::{Driven, Method, Start, Step, Transient, evenly};
 use fastbike::maneuver;
 use mbody::dynamics::{Formulation, TreePlant};
-use problem::{Controller, Dae, IntegrationOptions};
+use problem::{Dae, IntegrationOptions};
 use std::hint::black_box;
 use validation::course::By;
 use validation::vehicle::{Vehicle, running};
@@ -35,10 +35,9 @@ fn pulse(clock: &mut Clock, name: &str, by: By) {
 fn lane_change(clock: &mut Clock, name: &str, implicit: bool) {
     let maneuver = maneuver::read("lane_change", &[]).unwrap_or_else(|_| panic!("a bundled maneuver"));
     let vehicle = Vehicle::bundled("gsxr1000").state(&running(&[maneuver.course.speed.first()]));
-    let ride = maneuver::ride(maneuver, &vehicle.system).unwrap_or_else(|_| panic!("a rider"));
+    let ride = maneuver::ride("lane_change", maneuver, &vehicle.system).unwrap_or_else(|_| panic!("a rider"));
     let tree = TreePlant::in_formulation(vehicle.system.clone(), Formulation::Ggl);
-    let rider: Vec<Box<dyn Controller>> = ride.rider.map(|rider| Box::new(rider) as Box<dyn Controller>).into_iter().collect();
-    let mut plant = ClosedLoop::new(tree, rider).unwrap_or_else(|e| panic!("{e}"));
+    let mut plant = ClosedLoop::new(tree, ride.controllers).unwrap_or_else(|e| panic!("{e}"));
     let (y, u) = vehicle.arguments();
     let mut transient = Transient::new(&plant, evenly(6.0, 601));
     transient.start.held.fill(false);

@@ -4,6 +4,7 @@
 //! Source: clothoids of road design (theory manual 10.7).
 
 use super::{Layout, SectionDescription};
+use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::{Angle, Length};
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
@@ -30,7 +31,7 @@ impl SectionDescription for Curve {
     const KIND: &'static str = "curve";
     const ABOUT: &'static str = "into a curve by a clothoid, along it, and out of it again where `exit` says so";
     const EXAMPLE: &'static str = "{ radius: 100 m, transition: 30 m, angle: 90 deg, exit: 30 m }";
-    fn lay(self, path: &mut Layout) -> Result<(), Findings> {
+    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Findings> {
         let (radius, entry) = (self.radius.si(), self.transition.si());
         if radius == 0.0 {
             return Err(Finding::error("out_of_range", "a radius of `0 m` is out of range")

@@ -8,6 +8,7 @@
 //! Source: ISO 3888-1:2018, ISO 3888-2:2011 as summarized in the theory manual 10.7; the tracks themselves leave the driver free within the lanes.
 
 use super::{Layout, SectionDescription, quintic};
+use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::{PositiveQuantity, dimension::Length};
 use schemars::JsonSchema;
@@ -41,7 +42,7 @@ impl SectionDescription for DoubleLaneChange {
     const KIND: &'static str = "double_lane_change";
     const ABOUT: &'static str = "out of the lane and back into it: the tracks of ISO 3888";
     const EXAMPLE: &'static str = "{ standard: iso_3888_2, vehicle_width: 0.8 m }";
-    fn lay(self, path: &mut Layout) -> Result<(), Findings> {
+    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Findings> {
         let b = self.vehicle_width.si();
         let stretch = self.stretch.unwrap_or(1.0);
         if !(stretch.is_finite() && stretch > 0.0) {

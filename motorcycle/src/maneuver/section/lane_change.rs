@@ -4,6 +4,7 @@
 //! Source: theory manual 10.7 (the seed paper's Fig. 4: 3.6 m in 40 m at 25 m/s).
 
 use super::{Layout, SectionDescription, quintic};
+use mbody::description::Library;
 use mbody::description::finding::Findings;
 use mbody::description::quantity::{PositiveQuantity, Quantity, dimension::Length};
 use schemars::JsonSchema;
@@ -23,7 +24,7 @@ impl SectionDescription for LaneChange {
     const KIND: &'static str = "lane_change";
     const ABOUT: &'static str = "change to a lane beside";
     const EXAMPLE: &'static str = "{ width: 3.6 m, length: 40 m }";
-    fn lay(self, path: &mut Layout) -> Result<(), Findings> {
+    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Findings> {
         let (width, length) = (self.width.si(), self.length.si());
         path.offset(length, |x| quintic(x / length) * width);
         Ok(())

@@ -9,6 +9,7 @@ mod through_points;
 mod u_turn;
 
 use super::path::{Layout, Twice};
+use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
@@ -22,11 +23,11 @@ pub trait SectionDescription: DeserializeOwned + JsonSchema {
     const ABOUT: &'static str;
     /// Parameters as a user would write them.
     const EXAMPLE: &'static str;
-    /// Lays the section at the end of a path.
+    /// Lays the section at the end of a path. Files come from the library.
     ///
     /// # Errors
     /// Parameters that do not go together.
-    fn lay(self, path: &mut Layout) -> Result<(), Findings>;
+    fn lay(self, path: &mut Layout, library: &dyn Library) -> Result<(), Findings>;
 }
 
 /// A row of the table.
@@ -41,7 +42,7 @@ pub struct SectionKind {
     /// JSON Schema of the parameters.
     pub schema: fn(&mut SchemaGenerator) -> Schema,
     /// Reads the parameters and lays the section.
-    pub lay: fn(&Value, &mut Layout) -> Result<(), Findings>,
+    pub lay: fn(&Value, &mut Layout, &dyn Library) -> Result<(), Findings>,
 }
 
 impl SectionKind {
@@ -56,13 +57,13 @@ impl std::fmt::Debug for SectionKind {
     }
 }
 
-fn lay<T: SectionDescription>(value: &Value, path: &mut Layout) -> Result<(), Findings> {
+fn lay<T: SectionDescription>(value: &Value, path: &mut Layout, library: &dyn Library) -> Result<(), Findings> {
     let read: T = serde_path_to_error::deserialize(value).map_err(|e| {
         let at = e.path().to_string();
         let at = if at == "." { String::new() } else { at };
         Findings::from(Finding::error("invalid_entry", e.into_inner().to_string()).at_path(at))
     })?;
-    read.lay(path)
+    read.lay(path, library)
 }
 
 /// All kinds of sections.
@@ -85,6 +86,14 @@ fn quintic(q: Twice) -> Twice {
 mod tests {
     use super::*;
 
+    struct Nothing;
+
+    impl Library for Nothing {
+        fn text(&self, _: &str) -> Option<std::borrow::Cow<'_, str>> {
+            None
+        }
+    }
+
     /// Every example is laid, in the direction in which it began or turned as it says.
     #[test]
     fn every_example_can_be_laid() {
@@ -92,7 +101,7 @@ mod tests {
             let value: Value = serde_yaml::from_str(kind.example).unwrap();
             let mut layout = Layout::default();
             layout.straight(5.0);
-            (kind.lay)(&value, &mut layout).unwrap_or_else(|e| panic!("{}: {e}", kind.name));
+            (kind.lay)(&value, &mut layout, &Nothing).unwrap_or_else(|e| panic!("{}: {e}", kind.name));
             let path = layout.path();
             assert!(path.length() > 5.0, "{}", kind.name);
             // one unit of arc per unit of arc
@@ -113,7 +122,7 @@ mod tests {
     fn end(kind: &str, parameters: &str) -> (f64, f64, f64) {
         let kind = KINDS.iter().find(|k| k.name == kind).unwrap();
         let mut layout = Layout::default();
-        (kind.lay)(&serde_yaml::from_str(parameters).unwrap(), &mut layout).unwrap();
+        (kind.lay)(&serde_yaml::from_str(parameters).unwrap(), &mut layout, &Nothing).unwrap();
         let path = layout.path();
         let at = path.at(path.length());
         (at.x, at.y, at.heading)

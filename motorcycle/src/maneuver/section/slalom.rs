@@ -4,6 +4,7 @@
 //! Source: theory manual 10.7; the blend is the quintic of the lane change.
 
 use super::{Layout, SectionDescription, quintic};
+use mbody::description::Library;
 use mbody::description::finding::Findings;
 use mbody::description::quantity::{PositiveQuantity, Quantity, dimension::Length};
 use mbody::scalar::Real;
@@ -28,7 +29,7 @@ impl SectionDescription for Slalom {
     const KIND: &'static str = "slalom";
     const ABOUT: &'static str = "between cones";
     const EXAMPLE: &'static str = "{ spacing: 21 m, amplitude: 1.2 m, cones: 6 }";
-    fn lay(self, path: &mut Layout) -> Result<(), Findings> {
+    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Findings> {
         let (d, amplitude) = (self.spacing.si(), self.amplitude.si());
         let length = f64::from(self.cones + 1) * d;
         path.offset(length, |x| {

@@ -3,6 +3,7 @@
 //! Source: theory manual 10.7.
 
 use super::{Layout, SectionDescription};
+use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::{PositiveQuantity, Quantity, dimension::Length};
 use schemars::JsonSchema;
@@ -23,7 +24,7 @@ impl SectionDescription for UTurn {
     const KIND: &'static str = "u_turn";
     const ABOUT: &'static str = "a turn by 180 degrees: clothoid, arc, clothoid";
     const EXAMPLE: &'static str = "{ radius: 6 m, transition: 4 m }";
-    fn lay(self, path: &mut Layout) -> Result<(), Findings> {
+    fn lay(self, path: &mut Layout, _: &dyn Library) -> Result<(), Findings> {
         let (radius, transition) = (self.radius.si(), self.transition.si());
         let arc = PI * radius.abs() - transition;
         if arc < 0.0 {

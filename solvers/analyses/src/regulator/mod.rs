@@ -21,10 +21,12 @@
 //! Source: R. S. Sharp, Proc. IMechE C 221 (2007) 337–346 (preview in discrete time); B. D. O. Anderson, J. B. Moore, *Optimal Control: Linear
 //! Quadratic Methods*, Prentice Hall 1990, chapters 3 and 4 (tracking in continuous time). Held by `solvers/analyses/tests/regulator.rs`.
 
+mod cascade;
 mod margins;
 mod preview;
 mod riccati;
 
+pub use cascade::{Cascade, CascadeDesign, cascade};
 pub use margins::{Crossing, Margins};
 pub use preview::Preview;
 pub use riccati::{Riccati, RiccatiError, riccati};
@@ -147,6 +149,12 @@ pub enum RegulatorError {
     /// The states have no inertia.
     #[error("no inertia: some states have no rate of their own")]
     Singular,
+    /// A feedback of few states that does not do.
+    #[error("a feedback of {} damps it too little", fed_back.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", "))]
+    Unstable {
+        /// What is fed back.
+        fed_back: Vec<String>,
+    },
     /// No stabilizing solution.
     #[error(transparent)]
     Riccati(#[from] RiccatiError),

@@ -148,7 +148,7 @@ fn sign(mut w: DMatrix<f64>) -> Option<DMatrix<f64>> {
 }
 
 /// Solves `AᵀX + X A + C = 0` for a stable A.
-fn lyapunov(A: &DMatrix<f64>, C: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub(super) fn lyapunov(A: &DMatrix<f64>, C: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut c) = (A.clone(), C.clone());
     for _ in 0..MOST {
         let inverse = a.clone().try_inverse().filter(|i| i.iter().all(|e| e.is_finite()))?;
