@@ -13,6 +13,7 @@ mod motion;
 mod recorded;
 mod responses;
 mod ride;
+mod rider;
 mod sensitivity;
 mod trim;
 
@@ -34,6 +35,7 @@ fn the_table_of_evidence_is_up_to_date() {
             invariance::EVIDENCE,
             sensitivity::EVIDENCE,
             ride::EVIDENCE,
+            rider::EVIDENCE,
         ],
     );
 }
