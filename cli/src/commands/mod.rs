@@ -4,6 +4,7 @@ mod check;
 mod comfort;
 mod dynamics;
 mod frf;
+mod handling;
 mod info;
 mod linearize;
 mod map;
@@ -35,6 +36,7 @@ pub const KINDS: &[Kind] = &[
     frf::KIND,
     slalom::KIND,
     comfort::KIND,
+    handling::KIND,
     linearize::KIND,
     rider::KIND,
     run::KIND,

@@ -9,6 +9,7 @@
 mod axes;
 pub mod comfort;
 mod csv;
+pub mod handling;
 mod history;
 mod json;
 pub mod linear;
