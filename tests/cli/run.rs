@@ -341,7 +341,7 @@ fn wrong_maneuvers_are_told_with_what_is_meant() {
         (&["run", "ref11", "nowhere.yaml"], "nowhere.yaml"),
         (&["run", "ref11", "lane_change", "--change", "speed"], "PATH=VALUE"),
         (&["run", "ref11", "lane_change", "--change", "sped=20"], "`speed`"),
-        (&["run", "ref11", "lane_change", "--change", "path.1.lane_change.width=3 kg"], "lane_change.yaml"),
+        (&["run", "ref11", "lane_change", "--change", "path.1.lane_change.width=3 kg"], "expected a length"),
         (&["run", "ref11", "lane_change", "--speed", "20"], "--change speed=20"),
         (&["run", "pendulum", "lane_change"], "error"),
         (&["run", "ref11", "--figure", "path"], "maneuver"),

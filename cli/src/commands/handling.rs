@@ -32,7 +32,7 @@ struct Arguments {
     #[arg(long, value_name = "ACCELERATION", default_value = "4", allow_hyphen_values = true)]
     lateral_acceleration: String,
     /// How far the lane change goes aside
-    #[arg(long, value_name = "LENGTH", default_value = "3.6m")]
+    #[arg(long, value_name = "LENGTH", default_value = "3.6m", allow_hyphen_values = true)]
     width: String,
     /// Steady turns only, nothing is ridden
     #[arg(long)]

@@ -41,19 +41,19 @@ struct Arguments {
     #[arg(long, value_name = "ACCELERATION", default_value = "0", allow_hyphen_values = true)]
     lateral_acceleration: String,
     /// Offset from the path that counts as much as --heading and --torque
-    #[arg(long, value_name = "LENGTH", default_value = "0.15m")]
+    #[arg(long, value_name = "LENGTH", default_value = "0.15m", allow_hyphen_values = true)]
     offset: String,
     /// Heading error that counts as much
-    #[arg(long, value_name = "ANGLE", default_value = "0.05rad")]
+    #[arg(long, value_name = "ANGLE", default_value = "0.05rad", allow_hyphen_values = true)]
     heading: String,
     /// Steering torque that counts as much
-    #[arg(long, value_name = "TORQUE", default_value = "20N m")]
+    #[arg(long, value_name = "TORQUE", default_value = "20N m", allow_hyphen_values = true)]
     torque: String,
     /// Reaction time (Padé, second order); left out: none
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     delay: Option<String>,
     /// Natural frequency of the muscles; left out: they follow at once
-    #[arg(long, value_name = "FREQUENCY")]
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true)]
     muscles: Option<String>,
     /// What --plot draws
     #[arg(long, value_name = "PICTURE", value_enum, default_value = "loop")]
