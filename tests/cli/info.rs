@@ -35,4 +35,8 @@ fn every_kind_is_told_with_an_example() {
         assert!(answer.stdout.contains(&format!("{} — {}", kind.name, kind.about)), "{}", kind.name);
         assert!(answer.stdout.contains(&format!("example: {}: ", kind.name)), "{}", kind.name);
     }
+    for kind in motorcycle::maneuver::section::KINDS {
+        assert!(answer.stdout.contains(&format!("{} — {}", kind.name, kind.about)), "{}", kind.name);
+        assert!(answer.stdout.contains(&format!("example: {}: ", kind.name)), "{}", kind.name);
+    }
 }

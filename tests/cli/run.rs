@@ -311,3 +311,54 @@ fn powers_account_for_the_energy() {
     // trapezoids of 10 µs
     assert!((work - gained).abs() < 1e-4 * gained.abs(), "{work} {gained}");
 }
+
+/// Maneuvers by name and by path are the same, and `--change` reaches their entries.
+#[test]
+fn maneuvers_are_ridden_by_name_and_by_path() {
+    let record = ["--record", "rider.path_error", "--record", "chassis.y", "--format", "json"];
+    let named = json(&with(&["run", "ref11", "lane_change"], &record), 0);
+    assert_eq!(named["ending"].as_str(), Some("end_of_path"));
+    // 3.6 m to the left
+    assert!((last(&named, "chassis.y") - 3.6).abs() < 0.1, "{}", last(&named, "chassis.y"));
+    let file = folder("run_maneuver").join("mine.yaml");
+    fs::copy(evidence("../models/maneuvers/lane_change.yaml"), &file).expect("a copy");
+    let path = file.display().to_string();
+    let of_file = json(&with(&["run", "ref11", &path], &record), 0);
+    assert_eq!(column(&of_file, "chassis.y"), column(&named, "chassis.y"));
+    let other =
+        json(&with(&["run", "ref11", "lane_change", "--change", "path.1.lane_change.width=-2m", "--change", "speed=15"], &record), 0);
+    assert!((last(&other, "chassis.y") + 2.0).abs() < 0.1, "{}", last(&other, "chassis.y"));
+    // states of the rider are recorded with the rest
+    let all = json(&["run", "ref11", "steering_impulse", "--duration", "0.5s", "--format", "json"], 0);
+    assert!((last(&all, "rider.station") - 15.0).abs() < 0.1);
+    assert!(column(&all, "steer.torque").iter().all(|t| t.abs() < 1e-3), "nothing happens before the impulse");
+}
+
+#[test]
+fn wrong_maneuvers_are_told_with_what_is_meant() {
+    for (arguments, expected) in [
+        (&["run", "ref11", "lane_chnge"][..], "`lane_change`"),
+        (&["run", "ref11", "nowhere.yaml"], "nowhere.yaml"),
+        (&["run", "ref11", "lane_change", "--change", "speed"], "PATH=VALUE"),
+        (&["run", "ref11", "lane_change", "--change", "sped=20"], "`speed`"),
+        (&["run", "ref11", "lane_change", "--change", "path.1.lane_change.width=3 kg"], "expected a length"),
+        (&["run", "ref11", "lane_change", "--speed", "20"], "--change speed=20"),
+        (&["run", "pendulum", "lane_change"], "error"),
+        (&["run", "ref11", "--figure", "path"], "maneuver"),
+    ] {
+        let answer = fastbike(arguments);
+        assert_eq!((answer.status, answer.stdout.as_str()), (2, ""), "{arguments:?}: {}", answer.stderr);
+        assert!(answer.stderr.contains(expected), "{arguments:?}: {}", answer.stderr);
+    }
+}
+
+#[test]
+fn rides_have_figures() {
+    let folder = folder("run_figures");
+    for (picture, word) in [("histories", "path error"), ("path", "asked for"), ("gg", "acceleration to the left")] {
+        let path = folder.join(format!("{picture}.svg"));
+        let answer = fastbike(&["run", "ref11", "lane_change", "--figure", picture, "--plot", &path.display().to_string()]);
+        assert_eq!(answer.status, 0, "{}", answer.stderr);
+        assert!(fs::read_to_string(&path).expect("the figure").contains(word), "{picture}");
+    }
+}

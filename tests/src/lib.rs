@@ -4,6 +4,7 @@
 //! - [`agreement`]: comparisons whose tolerances have reasons, and the worst deviation of each;
 //! - [`course`]: motions over time, their energies and the drift of their constraints;
 //! - [`instant`]: a model at one instant, with constraints, accelerations and forces;
+//! - [`rode`]: maneuvers that the virtual rider rode;
 //! - [`tree`]: the tree of a model alone, in a motion given by signal names;
 //! - [`vehicle`]: bundled vehicles, their steady states by the names of their signals;
 //! - [`mod@evidence`]: rows that the tests declare, and the table in `README.md` that is made of them.
@@ -15,5 +16,6 @@ pub mod course;
 pub mod evidence;
 pub mod instant;
 pub mod reference;
+pub mod rode;
 pub mod tree;
 pub mod vehicle;

@@ -13,6 +13,7 @@ mod motions;
 mod moto11;
 mod ref11;
 mod responses;
+mod rides;
 mod rolling_disc;
 mod sel04;
 mod sharp1971;
@@ -35,6 +36,7 @@ fn the_table_of_evidence_is_up_to_date() {
             &gsxr1000_acceleration::EVIDENCE,
             &sharp1971::EVIDENCE,
             &trends::EVIDENCE,
+            &rides::EVIDENCE,
         ])
         .copied()
         .collect();

@@ -13,6 +13,7 @@ mod motion;
 mod recorded;
 mod responses;
 mod ride;
+mod rider;
 mod roads;
 mod sensitivity;
 mod trim;
@@ -38,6 +39,7 @@ fn the_table_of_evidence_is_up_to_date() {
             ride::EVIDENCE,
             roads::EVIDENCE,
             two_loops::EVIDENCE,
+            rider::EVIDENCE,
         ],
     );
 }

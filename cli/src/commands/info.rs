@@ -9,6 +9,7 @@ use mbody::assembly::{Assembled, BaseDescription};
 use mbody::description::Library;
 use mbody::model::BodyIndex;
 use problem::{Signal, UnknownKind};
+use serde_json::Value;
 use std::fmt::Write;
 
 /// Row of the table of commands.
@@ -60,29 +61,40 @@ fn bundled(context: &Context) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Every kind with its parameters and an example.
+/// Every kind of elements, then every kind of sections, with parameters and an example.
 fn kinds(context: &Context) -> String {
-    let schema = mbody::assembly::schema(&context.kinds);
     let mut text = String::new();
+    let schema = mbody::assembly::schema(&context.kinds);
+    let choices = &schema["properties"]["elements"]["additionalProperties"]["oneOf"];
     for kind in context.kinds.elements() {
-        let _ = writeln!(text, "{} — {}", kind.name, kind.about);
-        let choices = schema["properties"]["elements"]["additionalProperties"]["oneOf"].as_array();
-        let choice = choices.and_then(|c| c.iter().find(|c| c["properties"].get(kind.name).is_some()));
-        let parameters = choice.map(|c| resolved(&schema, &c["properties"][kind.name]));
-        if let Some(properties) = parameters.and_then(|p| p["properties"].as_object()) {
-            for (key, entry) in properties {
-                let unit = entry.get("quantity").and_then(|q| q.as_str()).map(|u| format!(" [{u}]")).unwrap_or_default();
-                let sentence = entry.get("description").and_then(|d| d.as_str()).unwrap_or_default().replace('\n', " ");
-                let _ = writeln!(text, "    {key}{unit}: {sentence}");
-            }
-        }
-        let _ = writeln!(text, "    example: {}: {}\n", kind.name, kind.example.split_whitespace().collect::<Vec<_>>().join(" "));
+        one(&mut text, &schema, choices, (kind.name, kind.about, kind.example));
+    }
+    let _ = writeln!(text, "sections of the path of a maneuver\n");
+    let schema = motorcycle::maneuver::schema();
+    let choices = &schema["properties"]["path"]["items"]["oneOf"];
+    for kind in motorcycle::maneuver::section::KINDS {
+        one(&mut text, &schema, choices, (kind.name, kind.about, kind.example));
     }
     text
 }
 
+/// One kind among the choices of a schema.
+fn one(text: &mut String, schema: &Value, choices: &Value, (name, about, example): (&str, &str, &str)) {
+    let _ = writeln!(text, "{name} — {about}");
+    let choice = choices.as_array().and_then(|c| c.iter().find(|c| c["properties"].get(name).is_some()));
+    let parameters = choice.map(|c| resolved(schema, &c["properties"][name]));
+    if let Some(properties) = parameters.and_then(|p| p["properties"].as_object()) {
+        for (key, entry) in properties {
+            let unit = entry.get("quantity").and_then(|q| q.as_str()).map(|u| format!(" [{u}]")).unwrap_or_default();
+            let sentence = entry.get("description").and_then(|d| d.as_str()).unwrap_or_default().replace('\n', " ");
+            let _ = writeln!(text, "    {key}{unit}: {sentence}");
+        }
+    }
+    let _ = writeln!(text, "    example: {name}: {}\n", example.split_whitespace().collect::<Vec<_>>().join(" "));
+}
+
 /// Follows a reference within the schema.
-fn resolved<'a>(schema: &'a serde_json::Value, entry: &'a serde_json::Value) -> &'a serde_json::Value {
+fn resolved<'a>(schema: &'a Value, entry: &'a Value) -> &'a Value {
     let target = entry.get("$ref").and_then(|r| r.as_str()).and_then(|r| r.strip_prefix('#')).and_then(|p| schema.pointer(p));
     target.unwrap_or(entry)
 }

@@ -5,6 +5,7 @@ mod comfort;
 mod compare;
 mod dynamics;
 mod frf;
+mod handling;
 mod info;
 mod linearize;
 mod map;
@@ -36,6 +37,7 @@ pub const KINDS: &[Kind] = &[
     frf::KIND,
     slalom::KIND,
     comfort::KIND,
+    handling::KIND,
     linearize::KIND,
     rider::KIND,
     run::KIND,

@@ -3,8 +3,8 @@
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
 use crate::figures::modes::quantity;
-use crate::output::rider::loop_of;
-use crate::output::{Angles, Beside, Report};
+use crate::output::rider::{RiderAlong, loop_of};
+use crate::output::{Angles, Beside, Report, responses};
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Locus, Markers, RootLocus};
 use crate::rider::Task;
 use crate::{Context, Exit, Failure, model, results};
@@ -13,6 +13,7 @@ use mbody::description::finding::{Finding, Severity};
 use mbody::description::quantity::Quantity;
 use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Length, Speed, Time, Torque};
 use motorcycle::maneuver::RiderDescription;
+use problem::Signal;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "rider", command, run };
@@ -40,19 +41,19 @@ struct Arguments {
     #[arg(long, value_name = "ACCELERATION", default_value = "0", allow_hyphen_values = true)]
     lateral_acceleration: String,
     /// Offset from the path that counts as much as --heading and --torque
-    #[arg(long, value_name = "LENGTH", default_value = "0.15m")]
+    #[arg(long, value_name = "LENGTH", default_value = "0.15m", allow_hyphen_values = true)]
     offset: String,
     /// Heading error that counts as much
-    #[arg(long, value_name = "ANGLE", default_value = "0.05rad")]
+    #[arg(long, value_name = "ANGLE", default_value = "0.05rad", allow_hyphen_values = true)]
     heading: String,
     /// Steering torque that counts as much
-    #[arg(long, value_name = "TORQUE", default_value = "20N m")]
+    #[arg(long, value_name = "TORQUE", default_value = "20N m", allow_hyphen_values = true)]
     torque: String,
     /// Reaction time (Padé, second order); left out: none
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     delay: Option<String>,
     /// Natural frequency of the muscles; left out: they follow at once
-    #[arg(long, value_name = "FREQUENCY")]
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true)]
     muscles: Option<String>,
     /// What --plot draws
     #[arg(long, value_name = "PICTURE", value_enum, default_value = "loop")]
@@ -142,10 +143,12 @@ fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {
             Ok(Figure::Lines(Lines { title: title("Open loop"), x, panels, bands: Vec::new(), variants: Vec::new() }))
         }
         Picture::Poles => {
-            let poles = |k: usize| along.points[k].iter().flat_map(|r| &r.closed).filter(|s| s.im >= 0.0).map(|s| (s.re, s.im));
-            let branches = known.iter().flat_map(|&k| poles(k).map(move |p| (k, p)).collect::<Vec<_>>());
-            let branches = branches.map(|(k, p)| Locus { name: name(k), points: vec![p], begins: false, variant: 0 }).collect();
-            Ok(Figure::RootLocus(RootLocus { title: title("Closed loop"), branches, first: String::new(), variants: Vec::new() }))
+            let branches = loci(along, &known, &|k| if varies(0) && varies(1) { laterally(report, k) } else { "poles".to_owned() });
+            let first = match (varies(0), known.first()) {
+                (true, Some(&k)) => quantity(&report.given[0].name, &report.given[0].unit, report.points[k].given[0]),
+                _ => String::new(),
+            };
+            Ok(Figure::RootLocus(RootLocus { title: title("Closed loop"), branches, first, variants: Vec::new() }))
         }
         Picture::Gains => {
             if !varies(0) {
@@ -156,7 +159,7 @@ fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {
                 let mut curves: Vec<Curve> = Vec::new();
                 for &k in &known {
                     let at = &report.points[k].given;
-                    let name = if varies(1) { quantity(&report.given[1].name, &report.given[1].unit, at[1]) } else { String::new() };
+                    let name = if varies(1) { laterally(report, k) } else { String::new() };
                     let gain = along.points[k].as_ref().map_or(f64::NAN, |r| {
                         r.gains.iter().chain(&r.path_gains).chain(&r.actuator_gains).nth(i).copied().unwrap_or(f64::NAN)
                     });
@@ -165,8 +168,8 @@ fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {
                         None => curves.push(Curve { name, points: vec![(at[0], gain)], markers: Markers::WhenFew, variant: 0 }),
                     }
                 }
-                let shown = Angles::Radians.show(&signal.unit);
-                LinePanel { y: Axis::new(signal.name.clone(), format!("N m/({})", shown.unit)), curves }
+                let effort = Signal::new(String::new(), along.effort.clone(), "");
+                LinePanel { y: Axis::new(signal.name.clone(), quotient(&effort, signal)), curves }
             });
             let panels = panels.collect();
             Ok(Figure::Lines(Lines {
@@ -178,6 +181,50 @@ fn figure(report: &Report, picture: Picture) -> Result<Figure, Failure> {
             }))
         }
     }
+}
+
+/// The lateral acceleration of a point, for a legend.
+fn laterally(report: &Report, point: usize) -> String {
+    quantity(&report.given[1].name, &report.given[1].unit, report.points[point].given[1])
+}
+
+/// Poles in the upper half-plane, each joined with the nearest one of the next point of the same name.
+fn loci(along: &RiderAlong, known: &[usize], name: &dyn Fn(usize) -> String) -> Vec<Locus> {
+    let mut branches: Vec<Locus> = Vec::new();
+    // where the branches of a name stand that can go on
+    let mut open: Vec<(String, Vec<usize>)> = Vec::new();
+    for &k in known {
+        let (name, poles) = (name(k), along.points[k].iter().flat_map(|r| &r.closed).filter(|s| s.im >= 0.0));
+        let poles: Vec<(f64, f64)> = poles.map(|s| (s.re, s.im)).collect();
+        let at = open.iter().position(|(n, _)| *n == name);
+        let begins = at.is_none();
+        let mut before = at.map_or_else(Vec::new, |at| open.swap_remove(at).1);
+        let mut after = Vec::new();
+        let distance = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).hypot(a.1 - b.1);
+        for pole in poles {
+            let end = |b: usize| branches[b].points.last().copied().unwrap_or(pole);
+            let nearest = (0..before.len()).min_by(|&a, &b| distance(end(before[a]), pole).total_cmp(&distance(end(before[b]), pole)));
+            // a pair that meets the real axis ends there, and two others begin
+            match nearest.filter(|&n| (end(before[n]).1 == 0.0) == (pole.1 == 0.0)) {
+                Some(n) => {
+                    let branch = before.swap_remove(n);
+                    branches[branch].points.push(pole);
+                    after.push(branch);
+                }
+                None => {
+                    after.push(branches.len());
+                    branches.push(Locus { name: name.clone(), points: vec![pole], begins, variant: 0 });
+                }
+            }
+        }
+        open.push((name, after));
+    }
+    branches
+}
+
+/// Unit of a gain: that of the torque over that of a signal.
+fn quotient(effort: &Signal, signal: &Signal) -> String {
+    responses::quotient(signal, effort, Angles::Radians).0
 }
 
 /// The gains that a reader looks for.

@@ -3,6 +3,7 @@
 use super::{Kind, read};
 use crate::animation::{self, Scene};
 use crate::arguments::{ModelArguments, OutputArguments, argument};
+use crate::figures::ride::{self, Picture};
 use crate::output::{Angles, History, Results};
 use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
@@ -11,6 +12,7 @@ use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Severity;
 use mbody::description::quantity::dimension::{Frequency, Number, Time};
 use mbody::description::quantity::{Dimensioned, parse_quantity};
+use motorcycle::maneuver::Control;
 use std::path::PathBuf;
 
 /// Row of the table of commands.
@@ -64,6 +66,9 @@ struct Arguments {
     /// Relative tolerance
     #[arg(long, value_name = "NUMBER", default_value = "1e-6")]
     rtol: String,
+    /// What --plot draws of a ride; left out: histories
+    #[arg(long, value_name = "PICTURE", value_enum, requires = "maneuver")]
+    figure: Option<Picture>,
     /// Animation to write: one .html file that opens in a browser without a network
     #[arg(long, value_name = "FILE.html")]
     animate: Option<PathBuf>,
@@ -77,7 +82,7 @@ fn command(command: Command) -> Command {
          value that it has there. Otherwise it starts from `start` of the description and the design pose, with inputs at their defaults. \
          `--signals` then replaces inputs, `--given` start values and inputs. A vehicle that has fallen ends the motion; lifting wheels and \
          other limits are told with their times, and the motion goes on. Ctrl-C ends it and keeps what was computed.\n\n\
-         Examples:\n  fastbike run gsxr1000 lane_change --plot lane_change.svg\n  fastbike run ref11 u_turn --change speed=4 --animate u_turn.html\n  \
+         Examples:\n  fastbike run gsxr1000 lane_change --plot lane_change.svg\n  fastbike run gsxr1000 double_lane_change --figure path --plot path.svg\n  fastbike run ref11 u_turn --change speed=4 --animate u_turn.html\n  \
          fastbike run gsxr1000 --speed 30 --given steer.torque=2 --until 'chassis.roll<-30deg'\n  \
          fastbike run ref11 --speed 25 --lean 20deg --signals pulse.csv --plot run.svg\n  fastbike run andrews_squeezer --duration 30ms\n  \
          fastbike run whipple --given chassis.roll_rate=0.05 --plot run.svg --animate run.html\n  \
@@ -108,6 +113,9 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     arguments.output.check()?;
     arguments.animate.as_deref().map(animation::check).transpose()?;
     let loaded = model::load(&arguments.model, context)?;
+    // where signals are chosen, they are the histories
+    let ridden = maneuver.as_ref().is_some_and(|m| m.control == Control::Rider);
+    let picture = arguments.figure.or((ridden && chosen).then_some(Picture::Histories));
     let scene = arguments.animate.is_some().then(|| Scene::of(&loaded.assembled));
     let request = motion::Request {
         times,
@@ -135,7 +143,10 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         let told = history.clone().in_axes(arguments.output.axes);
         animation::page_of_run(&scene, &history, &told, arguments.output.angles())
     });
-    let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| figure(history, &drawn));
+    let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| match picture {
+        Some(picture) => Ok(ride::figure(history, picture)?),
+        None => figure(history, &drawn),
+    });
     context.console.complain(&ended.unwrap_or_default());
     if let (Ok(_), Some(path), Some(page)) = (&exit, &arguments.animate, page) {
         animation::write(context, path, &page)?;

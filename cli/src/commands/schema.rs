@@ -1,18 +1,26 @@
-//! `schema`: the JSON Schema of descriptions, for editors.
+//! `schema`: the JSON Schema of descriptions and of maneuvers, for editors.
 
-use super::Kind;
+use super::{Kind, read};
 use crate::{Context, Exit, Failure};
-use clap::{ArgMatches, Command};
+use clap::{ArgMatches, Args, Command};
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "schema", command, run };
 
-fn command(command: Command) -> Command {
-    command.about("Print the JSON Schema of descriptions, for editors")
+#[derive(Debug, Args)]
+struct Arguments {
+    /// The schema of maneuvers instead of that of descriptions
+    #[arg(long)]
+    maneuver: bool,
 }
 
-fn run(_: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
-    let schema = mbody::assembly::schema(&context.kinds);
+fn command(command: Command) -> Command {
+    Arguments::augment_args(command).about("Print the JSON Schema of descriptions or of maneuvers, for editors")
+}
+
+fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
+    let arguments: Arguments = read(matches)?;
+    let schema = if arguments.maneuver { motorcycle::maneuver::schema() } else { mbody::assembly::schema(&context.kinds) };
     context.console.print(format!("{schema:#}\n").as_bytes())?;
     Ok(Exit::Done)
 }

@@ -1,3 +1,4 @@
 //! From reports to figures: what an engineer expects to see.
 
 pub mod modes;
+pub mod ride;

@@ -226,8 +226,10 @@ fn told(ending: &TransientEnding, ends: &[Limit]) -> (Option<String>, Option<Str
 fn recorded(record: &[String], plant: &Ridden, system: &System) -> Result<Recorded, Failure> {
     let beside = account::signals();
     if record.is_empty() {
+        // between the unknowns of the system and the states of who rides
+        let stabilizing = system.unknowns().len()..plant.plant().unknowns().len();
         let all = analyses::transient::everything(plant).into_iter();
-        let variables: Vec<Variable> = all.filter(|v| !matches!(v, Variable::Unknown(i) if *i >= system.unknowns().len())).collect();
+        let variables: Vec<Variable> = all.filter(|v| !matches!(v, Variable::Unknown(i) if stabilizing.contains(i))).collect();
         let accounts = (0..beside.len()).map(|k| (variables.len() + k, k)).collect();
         return Ok(Recorded { variables, accounts });
     }

@@ -6,7 +6,7 @@
 //! models one for every entry that is not zero, frequency responses one for every frequency. With `--versus`, a first column `variant` tells the rows apart.
 
 use super::report::{Beside, Report};
-use super::{Kind, Options, comfort, comparison, history, linear, modes, responses, rider};
+use super::{Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider};
 use std::io;
 
 pub(super) const KIND: Kind = Kind {
@@ -25,6 +25,7 @@ fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()
         Beside::Responses(responses) => return responses::write_csv(report, responses, out),
         Beside::Comfort(comfort) => return comfort::write_csv(report, comfort, out),
         Beside::Rider(along) => return rider::write_csv(report, along, out),
+        Beside::Handling(along) => return handling::write_csv(report, along, out),
     }
     let mut table = ::csv::Writer::from_writer(out);
     let given = report.given.iter().map(|g| format!("given.{}", g.name));

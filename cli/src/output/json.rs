@@ -3,7 +3,7 @@
 //! A value that is not finite is `null`; `signals` is empty where nothing was computed.
 
 use super::report::{Beside, Point, Report};
-use super::{Kind, Options, comfort, comparison, history, linear, modes, responses, rider};
+use super::{Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider};
 use problem::Ending;
 use serde_json::{Map, Value, json};
 use std::io;
@@ -42,6 +42,7 @@ pub(super) fn object(report: &Report) -> Value {
         Beside::Responses(responses) => responses::add_json(responses, &mut object),
         Beside::Comfort(comfort) => comfort::add_json(comfort, &mut object),
         Beside::Rider(along) => rider::add_json(along, &mut object),
+        Beside::Handling(along) => handling::add_json(along, &mut object),
     }
     if !report.limits.is_empty() {
         object["limits"] = report.limits.iter().map(|p| point(report, p)).collect::<Vec<_>>().into();

@@ -10,6 +10,7 @@ mod axes;
 pub mod comfort;
 pub mod comparison;
 mod csv;
+pub mod handling;
 mod history;
 mod json;
 pub mod linear;

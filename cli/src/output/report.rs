@@ -1,7 +1,7 @@
 //! The result of an analysis at one or several points, before it becomes text.
 
 use super::axes::Axes;
-use super::{Kind, Results, Writer, comfort, linear, modes, responses, rider};
+use super::{Kind, Results, Writer, comfort, handling, linear, modes, responses, rider};
 use problem::{Ending, Signal};
 use serde_json::json;
 use std::borrow::Cow;
@@ -73,6 +73,8 @@ pub enum Beside {
     Comfort(comfort::ComfortAlong),
     /// The design of a rider at every point.
     Rider(rider::RiderAlong),
+    /// Handling indices at every point.
+    Handling(handling::HandlingAlong),
 }
 
 /// Everything that a command such as `trim` or `map` found out. Values are SI.
@@ -146,6 +148,7 @@ impl Results for Report {
                 Beside::Linear(linear) => linear.turn(&|name| super::axes::factor(name)),
                 Beside::Modes(modes) => modes.turn(&self.given, &|name| super::axes::factor(name)),
                 Beside::Responses(responses) => responses.turn(&|name| super::axes::factor(name)),
+                Beside::Handling(along) => along.turn(&|name| super::axes::factor(name)),
                 // root mean squares have no sense, and gains belong to the signals of the model
                 Beside::Comfort(_) | Beside::Rider(_) => {}
             }
@@ -175,6 +178,7 @@ impl Results for Report {
             Beside::Responses(responses) => responses.points.get(k).is_some_and(Result::is_ok),
             Beside::Comfort(comfort) => comfort.points.get(k).is_some_and(Result::is_ok),
             Beside::Rider(rider) => rider.points.get(k).is_some_and(Result::is_ok),
+            Beside::Handling(along) => along.points.get(k).is_some_and(|p| p.iter().any(|v| v.is_finite())),
         };
         self.points.iter().enumerate().any(|(k, p)| p.ending == Ending::Reached && found(k))
     }

@@ -4,7 +4,7 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Beside, Point, Report};
-use super::{Angles, Kind, Options, comfort, comparison, history, linear, modes, responses, rider, versus};
+use super::{Angles, Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, versus};
 use problem::Ending;
 use std::io;
 
@@ -44,6 +44,7 @@ fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Res
         Beside::Responses(responses) => return responses::write_table(report, responses, options, out),
         Beside::Comfort(comfort) => return comfort::write_table(report, comfort, options, out),
         Beside::Rider(along) => return rider::write_table(report, along, options, out),
+        Beside::Handling(along) => return handling::write_table(report, along, options, out),
     }
     match report.points.as_slice() {
         [] => {}

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! a_y = V_x r     κ = r/√(V_x² + V₀²)     τ_n = τ r/√(r² + r₀²)     p = |P_f − P_r|
-//! trail = (G − P_f)·x     normal trail = ((P_f − O) × s)·n
+//! trail = (G − P_f)·x     normal trail = ((P_f − O) × s)·n     κ₀ = (y_r·x)/((P_f − P_r)·x)
 //! ```
 //!
 //! | symbol | unit | |
@@ -13,6 +13,7 @@
 //! | P_f, P_r | m | contact points of undeformed tires with the level road |
 //! | O, s, G | m | point of the steering axis, its upward direction, its intersection with the level road |
 //! | x, n | | forward along the contact, axis of the front wheel to the left |
+//! | κ₀, y_r | 1/m | kinematic curvature: that of the path of P_r if no wheel slipped sideways, positive to the left; y_r across the contact at the rear |
 //! | V₀, r₀ | | 0.001 m/s, 0.001 rad/s: keep the signals differentiable at rest and in straight running |
 //!
 //! Source: V. Cossalter, *Motorcycle Dynamics* (2006), chapters 1, 4 and 7 (definitions). Range: level road; lean as in `mbody`'s contact geometry.
@@ -82,6 +83,7 @@ impl ForceLaw for SingleTrack {
             output("wheelbase", "m", "distance of the contact points"),
             output("trail", "m", "from the front contact point forward to the steering axis, on the road"),
             output("normal_trail", "m", "distance of the front contact point from the steering axis, positive behind it"),
+            output("kinematic_curvature", "1/m", "curvature of the rear contact's path if no wheel slipped sideways, positive to the left"),
         ];
         Declared { inputs: vec![torque], outputs, ..Default::default() }
     }
@@ -98,6 +100,8 @@ impl ForceLaw for SingleTrack {
         let on_road = X.p - s.scaled(X.p.z / s.z);
         out.output(4, (on_road - front.point).dot(front.frame.x));
         out.output(5, (front.point - X.p).cross(s).dot(axle));
+        // the axles, projected onto the road, meet at P_r + y_r/κ₀
+        out.output(6, rear.frame.y.dot(front.frame.x) / (front.point - rear.point).dot(front.frame.x));
     }
     fn energy<S: SystemScalar>(&self, _at: &Evaluated<'_, S>) -> Energy<S> {
         Energy::default()
@@ -147,8 +151,7 @@ impl WheelDescription {
 
 impl ElementDescription for SingleTrackDescription {
     const KIND: &'static str = "single_track";
-    const ABOUT: &'static str =
-        "signals of a single-track vehicle: lateral_acceleration, curvature, steer.torque_normalized, wheelbase, trail, normal_trail";
+    const ABOUT: &'static str = "signals of a single-track vehicle: lateral_acceleration, curvature, steer.torque_normalized, wheelbase, trail, normal_trail, kinematic_curvature";
     const EXAMPLE: &'static str = "{ base: chassis, steer: steer, front_wheel: { joint: front_wheel, radius: 0.3 m, crown_radius: 60 mm }, \
         rear_wheel: { joint: rear_wheel, radius: 0.32 m, crown_radius: 95 mm } }";
     const TREE: &'static str = crate::EXAMPLE_TREE;
@@ -206,6 +209,21 @@ mod tests {
         let trail = 1.2 + 0.75 * sin / cos - wheelbase;
         assert!((bench.output("trail") - trail).abs() < 1e-12);
         assert!((bench.output("normal_trail") - trail * cos).abs() < 1e-12);
+    }
+
+    /// Upright, a bar turned by δ points the front wheel by `atan(sin δ cos ε / cos δ)` to the side: `tan Δ = tan δ cos ε` (Cossalter, 1.4).
+    #[test]
+    fn an_upright_bar_turns_as_the_caster_says() {
+        let mut bench = observer();
+        bench.rest();
+        assert!(bench.output("kinematic_curvature").abs() < 1e-15);
+        for angle in [0.2_f64, -0.1] {
+            bench.set("steer.angle", angle);
+            let (wheelbase, curvature) = (bench.output("wheelbase"), bench.output("kinematic_curvature"));
+            // the contact point moves aside with the trail: the wheelbase along x is shorter by less than its square over p
+            let expected = angle.tan() * 0.42_f64.cos() / wheelbase;
+            assert!((curvature / expected - 1.0).abs() < 3e-2 && curvature * angle > 0.0, "{curvature} {expected}");
+        }
     }
 
     #[test]

@@ -7,8 +7,9 @@
 //! ```
 //!
 //! The unknowns are those of the plant, then x; the rows those of the plant, then `ẋ − f`; the inputs those that nobody commands; the
-//! outputs those of the plant, then the commanded inputs under their names, then those of the controllers. Commands depend on
-//! differential unknowns only, so there is no algebraic loop, and the chain rule through `c` makes the derivatives exact.
+//! outputs those of the plant, then the commanded inputs under their names, then those of the controllers. Coordinates that a controller
+//! reads are no longer cyclic. Commands depend on differential unknowns only, so there is no algebraic loop, and the chain rule
+//! through `c` makes the derivatives exact.
 
 mod wire;
 
@@ -112,6 +113,10 @@ impl<P: Plant> ClosedLoop<P> {
             let wire = Wire::new(controller, first, &plant)?;
             if let Some(&twice) = wire.commanded.iter().find(|&&i| wires.iter().any(|w| w.commanded.contains(&i))) {
                 return Err(LoopError::CommandedTwice { input: plant.inputs()[twice].signal.name.clone() });
+            }
+            // whoever reads a coordinate lets the motion depend on it
+            for (reads, unknown) in unknowns.iter_mut().enumerate() {
+                unknown.cyclic &= !wire.measured.contains(&reads);
             }
             wires.push(wire);
         }

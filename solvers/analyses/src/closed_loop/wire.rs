@@ -9,7 +9,7 @@ use std::ops::Range;
 pub(super) struct Wire {
     pub(super) controller: Box<dyn Controller>,
     /// Unknowns of the plant that it reads.
-    measured: Vec<usize>,
+    pub(super) measured: Vec<usize>,
     /// Inputs of the plant that it commands.
     pub(super) commanded: Vec<usize>,
     /// Its states among the unknowns of the closed loop.

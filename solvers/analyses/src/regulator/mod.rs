@@ -16,7 +16,7 @@
 //!
 //! with A_c of the closed loop, P of the Riccati equation and d the row of ψ. Offset and heading error are those against the path where it is now, so
 //! nothing here is limited to small changes of direction: a U-turn is a history of curvature. The kernel oscillates with the modes of A_c, the curvature does
-//! not: the integral is a weighted sum at equally spaced times, exact for every Δκ that is quadratic between three neighbors ([`Preview`]).
+//! not: the integral is a weighted sum at equally spaced times, exact for every quadratic Δκ ([`Preview`]).
 //!
 //! Source: R. S. Sharp, Proc. IMechE C 221 (2007) 337–346 (preview in discrete time); B. D. O. Anderson, J. B. Moore, *Optimal Control: Linear
 //! Quadratic Methods*, Prentice Hall 1990, chapters 3 and 4 (tracking in continuous time). Held by `solvers/analyses/tests/regulator.rs`.
@@ -61,7 +61,7 @@ pub struct Design {
     pub path: (f64, f64),
     /// States that are left out: something else holds them.
     pub held: Vec<String>,
-    /// How long it looks ahead, s, and in how many intervals (even).
+    /// How long it looks ahead, s, and in how many intervals.
     pub preview: (f64, usize),
     /// What lies between the input of the regulator and that of the model.
     pub actuator: Actuator,

@@ -7,7 +7,8 @@ const FINE: usize = 24;
 
 /// A sum over samples of the path ahead: `Σ weights[i] Δκ(t_i)` with `t_i = i·interval`, Δκ the curvature beside that of the design, 1/m.
 ///
-/// The weights are integrals of the kernel with the quadratic Lagrange polynomials of pairs of intervals.
+/// The weights are integrals of the kernel with cubic Hermite polynomials whose slopes are those of parabolas through three neighbors: exact for every quadratic Δκ, and
+/// alike at every sample, so that what passes by a sample is felt no more than what passes between two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     /// Time between two samples, s.
@@ -18,10 +19,21 @@ pub struct Preview {
     pub tail: f64,
 }
 
+/// Adds a weight of the slope at a node (per interval): that of the parabola through it and its neighbors.
+fn add_slope(weights: &mut [f64], node: usize, weight: f64) {
+    let last = weights.len() - 1;
+    let (from, shares) = match node {
+        0 => (0, [-1.5, 2.0, -0.5]),
+        node if node == last => (last - 2, [0.5, -2.0, 1.5]),
+        node => (node - 1, [-0.5, 0.0, 0.5]),
+    };
+    weights[from..].iter_mut().zip(shares).for_each(|(w, share)| *w += weight * share);
+}
+
 impl Preview {
     /// Weights of the kernel `G exp(A_cᵀ τ) h`: G one row (`R⁻¹Bᵀ`).
     pub(super) fn of((closed, G): (&DMatrix<f64>, &DMatrix<f64>), h: &DVector<f64>, (horizon, intervals): (f64, usize)) -> Self {
-        let intervals = intervals.next_multiple_of(2).max(2);
+        let intervals = intervals.max(2);
         let interval = horizon / intervals as f64;
         let fine = interval / FINE as f64;
         let step = (closed.transpose() * fine).exp();
@@ -33,22 +45,21 @@ impl Preview {
             row *= &step;
         }
         let mut weights = vec![0.0; intervals + 1];
-        for pair in 0..intervals / 2 {
-            let first = 2 * pair;
-            for k in 0..=2 * FINE {
+        for first in 0..intervals {
+            for k in 0..=FINE {
                 // Simpson's rule over the kernel times a polynomial
                 let simpson = match k {
-                    0 => 1.0,
-                    k if k == 2 * FINE => 1.0,
+                    0 | FINE => 1.0,
                     k if k % 2 == 1 => 4.0,
                     _ => 2.0,
                 } * fine
                     / 3.0;
                 let x = k as f64 / FINE as f64;
-                let polynomials = [0.5 * (x - 1.0) * (x - 2.0), x * (2.0 - x), 0.5 * x * (x - 1.0)];
-                for (node, polynomial) in polynomials.iter().enumerate() {
-                    weights[first + node] += simpson * polynomial * kernel[first * FINE + k];
-                }
+                let share = simpson * kernel[first * FINE + k];
+                weights[first] += share * (1.0 + 2.0 * x) * (1.0 - x).powi(2);
+                weights[first + 1] += share * x * x * (3.0 - 2.0 * x);
+                add_slope(&mut weights, first, share * x * (1.0 - x).powi(2));
+                add_slope(&mut weights, first + 1, -share * x * x * (1.0 - x));
             }
         }
         let largest = |part: &[f64]| part.iter().fold(0.0_f64, |m, k| m.max(k.abs()));

@@ -1,0 +1,86 @@
+//! Figures of a ride: histories, the path from above, accelerations to the front and to the side.
+
+use crate::output::{Angles, History};
+use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
+use clap::ValueEnum;
+use mbody::description::finding::Finding;
+
+/// What is drawn of a ride.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Picture {
+    /// Speed, lean, steering torque and offset from the path over time
+    #[default]
+    Histories,
+    /// The path asked for and the path ridden, from above
+    Path,
+    /// Acceleration to the front over acceleration to the side
+    Gg,
+}
+
+/// Panels of the histories: title, curves with their names.
+type Panels = [(&'static str, &'static [(&'static str, &'static str)]); 4];
+
+const HISTORIES: Panels = [
+    ("speed", &[("ridden", "chassis.forward_speed"), ("asked for", "rider.target_speed")]),
+    ("roll", &[("", "chassis.roll")]),
+    ("steer torque", &[("", "steer.torque")]),
+    ("path error", &[("", "rider.path_error")]),
+];
+
+/// Draws a ride.
+///
+/// # Errors
+/// A signal that it needs was not recorded.
+pub fn figure(history: &History, picture: Picture) -> Result<Figure, Finding> {
+    let column = |name: &str| -> Result<(&str, &[f64]), Finding> {
+        let at = history.signals.iter().position(|s| s.name == name);
+        let at = at.ok_or_else(|| {
+            Finding::error("not_recorded", format!("this figure needs `{name}`, which was not recorded"))
+                .with_hint("it is a figure of rides; leave out `--record`, and name a maneuver that somebody rides")
+        })?;
+        Ok((&history.signals[at].unit, &history.columns[at]))
+    };
+    let curve = |name: &str, x: &[f64], y: &[f64], factor: f64| Curve {
+        name: name.to_owned(),
+        points: x.iter().zip(y).map(|(x, y)| (*x, y * factor)).collect(),
+        markers: Markers::Never,
+        variant: 0,
+    };
+    let (what, x, panels) = match picture {
+        Picture::Histories => {
+            let mut panels = Vec::new();
+            for (title, curves) in HISTORIES {
+                let unit = column(curves[0].1)?.0;
+                let shown = Angles::Degrees.show(unit);
+                let one = |(name, signal): &(&str, &str)| Ok(curve(name, &history.time, column(signal)?.1, shown.factor));
+                let curves = curves.iter().map(one).collect::<Result<_, Finding>>()?;
+                panels.push(LinePanel { y: Axis::new(title, shown.unit), curves });
+            }
+            ("Ride", Axis::new("time", "s"), panels)
+        }
+        Picture::Path => {
+            let ridden = curve("ridden", column("chassis.x")?.1, column("chassis.y")?.1, 1.0);
+            let asked = curve("asked for", column("rider.path_x")?.1, column("rider.path_y")?.1, 1.0);
+            ("Path", Axis::new("x", "m"), vec![LinePanel { y: Axis::new("y, to the left", "m"), curves: vec![ridden, asked] }])
+        }
+        Picture::Gg => {
+            let [forward, lateral, yaw_rate] = ["forward_speed", "lateral_speed", "yaw_rate"].map(|n| column(&format!("chassis.{n}")));
+            let (forward, lateral, yaw_rate) = (forward?.1, lateral?.1, yaw_rate?.1);
+            let rates = |v: &[f64]| -> Vec<f64> {
+                let last = history.time.len() - 1;
+                let slope = |a: usize, b: usize| (v[b] - v[a]) / (history.time[b] - history.time[a]);
+                (0..=last).map(|k| slope(k.saturating_sub(1), (k + 1).min(last))).collect()
+            };
+            // of the base point, along and across its heading
+            let along: Vec<f64> = rates(forward).iter().zip(yaw_rate.iter().zip(lateral)).map(|(a, (r, v))| a - r * v).collect();
+            let across: Vec<f64> = rates(lateral).iter().zip(yaw_rate.iter().zip(forward)).map(|(a, (r, v))| a + r * v).collect();
+            let axis = Axis::new("acceleration to the front", "m/s^2");
+            (
+                "Accelerations",
+                Axis::new("acceleration to the left", "m/s^2"),
+                vec![LinePanel { y: axis, curves: vec![curve("", &across, &along, 1.0)] }],
+            )
+        }
+    };
+    Ok(Figure::Lines(Lines { title: format!("{what} of {}", history.model), x, panels, bands: Vec::new(), variants: Vec::new() }))
+}
