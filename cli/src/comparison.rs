@@ -29,8 +29,8 @@ pub struct Motion<'a> {
     pub system: &'a Arc<System>,
     /// Name of the model.
     pub model: &'a str,
-    /// Who rides.
-    pub maneuver: Option<Maneuver>,
+    /// A maneuver and its name.
+    pub maneuver: Option<(&'a str, Maneuver)>,
 }
 
 impl Motion<'_> {
@@ -41,7 +41,7 @@ impl Motion<'_> {
             relative_tolerance,
             ..self.request.clone()
         };
-        let ride = self.maneuver.clone().map(|m| maneuver::ride(m, self.system)).transpose()?;
+        let ride = self.maneuver.clone().map(|(name, m)| maneuver::ride(name, m, self.system)).transpose()?;
         motion::run(&request, self.system, self.model, ride)
     }
 
@@ -77,7 +77,7 @@ impl Motion<'_> {
             }
         }
         let end = self.request.times.last().copied().unwrap_or_default();
-        let what = self.maneuver.as_ref().map_or_else(|| format!("motion of {end} s"), |m| m.name.clone());
+        let what = self.maneuver.as_ref().map_or_else(|| format!("motion of {end} s"), |(_, m)| m.name.clone());
         Ok(Comparison { model: self.model.to_owned(), problem: what, reference: name, in_time: true, rows, warnings })
     }
 

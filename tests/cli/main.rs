@@ -5,6 +5,7 @@
 mod animation;
 mod check;
 mod comfort;
+mod compare;
 mod dynamics;
 mod frf;
 mod handling;

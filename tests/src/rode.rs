@@ -66,7 +66,7 @@ impl Rode {
             record: record.iter().map(|name| (*name).to_owned()).collect(),
             keep: None,
         };
-        let ride = maneuver::ride(maneuver, &vehicle.system)?;
+        let ride = maneuver::ride("", maneuver, &vehicle.system)?;
         Ok(Self { history: motion::run(&request, &vehicle.system, "", Some(ride))? })
     }
 

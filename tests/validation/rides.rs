@@ -1,5 +1,6 @@
 //! Rides: the virtual rider follows the bundled maneuvers, the way a motorcycle is steered.
 
+use mbody::description::OneText;
 use mbody::description::finding::Findings;
 use validation::agreement::{Agreement, absolute};
 use validation::evidence::Row;
@@ -213,7 +214,9 @@ fn random_rides_end_with_a_name() {
     for k in 0..count {
         let text = random(&mut numbers);
         let mut findings = Findings::new();
-        let Some(maneuver) = motorcycle::maneuver::read("random.yaml", &text, &[], &mut findings) else { panic!("{text}\n{findings}") };
+        let Some(maneuver) = motorcycle::maneuver::read("random.yaml", &OneText(&text), &[], &mut findings) else {
+            panic!("{text}\n{findings}")
+        };
         let began = std::time::Instant::now();
         let ending = match Rode::tried(&vehicle, maneuver, Care::USUAL, &[]) {
             Err(failure) => format!("refused: {}", failure.to_string().lines().next().unwrap_or_default()),

@@ -102,6 +102,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
                 let why = format!("a relative tolerance of `{bad}` is out of range: it must be from 1e-13 to 0.1");
                 return Err(argument("rtol", &arguments.rtol, "out_of_range", why).into());
             }
+            let maneuver = arguments.maneuver.as_deref().zip(maneuver);
             Motion { request, system, model: &loaded.name, maneuver }.compare(&contenders, &tolerances, arguments.repeats)?
         }
     };

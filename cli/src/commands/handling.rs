@@ -8,6 +8,7 @@ use crate::plan::{Prescribed, Request, Turn};
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::{Context, Exit, Failure, maneuver, model, motion, results, steady};
 use clap::{ArgMatches, Args, Command};
+use mbody::description::OneText;
 use mbody::description::finding::{Finding, Findings, Severity};
 use mbody::description::quantity::Dimensioned;
 use mbody::description::quantity::dimension::{Acceleration, Length, Speed};
@@ -150,7 +151,9 @@ const RECORDED: [&str; 3] = ["steer.torque", "chassis.roll_rate", "chassis.forwa
 /// Rides a maneuver to its end.
 fn ride(system: &Arc<System>, text: &str) -> Result<History, Failure> {
     let mut findings = Findings::new();
-    let Some(maneuver) = motorcycle::maneuver::read("handling", text, &[], &mut findings) else { return Err(Failure::Findings(findings)) };
+    let Some(maneuver) = motorcycle::maneuver::read("handling", &OneText(text), &[], &mut findings) else {
+        return Err(Failure::Findings(findings));
+    };
     let speed = maneuver.course.speed.first();
     let duration = 1.2 * maneuver.course.duration() + 1.0;
     let request = motion::Request {
@@ -166,7 +169,7 @@ fn ride(system: &Arc<System>, text: &str) -> Result<History, Failure> {
         record: RECORDED.map(str::to_owned).to_vec(),
         keep: None,
     };
-    let history = motion::run(&request, system, "", Some(maneuver::ride(maneuver, system)?))?;
+    let history = motion::run(&request, system, "", Some(maneuver::ride("handling", maneuver, system)?))?;
     match history.outcome.ending.as_str() {
         maneuver::GOAL => Ok(history),
         other => Err(Finding::error("not_ridden", format!("a ride ended with `{other}`, so it has no index")).into()),

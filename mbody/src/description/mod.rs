@@ -19,3 +19,13 @@ pub trait Library {
     /// The text called `name`, or `None` where there is no such text.
     fn text(&self, name: &str) -> Option<Cow<'_, str>>;
 }
+
+/// A library of one text under any name: what was never a file.
+#[derive(Clone, Copy, Debug)]
+pub struct OneText<'a>(pub &'a str);
+
+impl Library for OneText<'_> {
+    fn text(&self, _: &str) -> Option<Cow<'_, str>> {
+        Some(Cow::Borrowed(self.0))
+    }
+}
