@@ -14,7 +14,7 @@
 //!
 //! All gains and weights are of the present V and a_f; K_p, K_d > 0 for lean to the right by torque to the left (counter-steering). What the bound of the torque takes away is not integrated.
 //!
-//! Source: theory manual 10.3, with the lean of steady states instead of `−atan(a/g)` and its correction; V. Cossalter, R. Lot, M. Massaro in *Modelling, Simulation and Control of Two-Wheeled Vehicles*, Wiley 2014.
+//! Source: theory manual 10.3, with the lean of steady states instead of `−atan(a/g)` and its correction.
 //! Range: that of the table; offsets below the radius of the path.
 
 use super::law::{MOST, Reply, bounded};

@@ -1,7 +1,7 @@
 //! A bump across the road: `z = ½ h (1 − cos 2πq)`, `q = (s − s₀)/l` from 0 to 1.
 //!
 //! Symbols: h height, m, negative for a dip; l length, m; s₀ where it begins, m. Height and slope are continuous, the second derivative is not.
-//! Source: the usual obstacle of ride tests (haversine), e.g. T. D. Gillespie, *Fundamentals of Vehicle Dynamics*, SAE 1992, chapter 5. Range: lengths above that of
+//! Source: elementary; a full period of a raised cosine. Range: lengths above that of
 //! the contact patch, 0.1 m or so, which the road would otherwise be averaged over.
 
 use super::{Relief, ReliefDescription};

@@ -155,7 +155,7 @@ mod tests {
                 );
             }
             assert!(highest > 1e-3, "{}", kind.name);
-            assert_eq!((road.at(0.0).value, road.at(0.0).slope), (0.0, 0.0), "{} begins level", kind.name);
+            assert!(road.at(0.0).value.abs() + road.at(0.0).slope.abs() < 1e-15, "{} begins level", kind.name);
         }
     }
 
@@ -169,7 +169,7 @@ mod tests {
         assert!([20.3, 22.3, 24.3].iter().all(|&s| (height("bump_sequence", bumps, s) - 0.03).abs() < 1e-15));
         assert!([18.3, 21.3, 26.3].iter().all(|&s| height("bump_sequence", bumps, s) == 0.0));
         let sine = "{ amplitude: 10 mm, wavelength: 4 m, begin: 10 m }";
-        assert!((height("sine", sine, 21.0) - 0.01).abs() < 1e-15 && (height("sine", sine, 23.0) + 0.01).abs() < 1e-15);
+        assert!((height("sine", sine, 21.0) + 0.01).abs() < 1e-14 && (height("sine", sine, 23.0) - 0.01).abs() < 1e-14);
         let track = "{ file: track.csv }";
         assert!((height("profile", track, 1.0) - 0.002).abs() < 1e-15 && height("profile", track, 9.0) == 0.0);
         let rough = |class: &str| height("iso_8608", &format!("{{ class: {class}, seed: 3 }}"), 77.0);
