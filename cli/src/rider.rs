@@ -28,7 +28,7 @@ const GREATEST_TORQUE: f64 = 150.0;
 /// Damping ratio of the muscles: theory manual 10.6.
 const MUSCLE_DAMPING: f64 = 0.7;
 /// Time between two samples of the path ahead, s.
-const INTERVAL: f64 = 0.1;
+const INTERVAL: f64 = 0.05;
 /// Previews that are tried, s, and the share of the kernel at which one is long enough.
 const PREVIEWS: [f64; 4] = [2.0, 3.0, 4.5, 6.0];
 const FAR_ENOUGH: f64 = 0.01;

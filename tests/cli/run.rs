@@ -344,7 +344,7 @@ fn wrong_maneuvers_are_told_with_what_is_meant() {
         (&["run", "ref11", "lane_change", "--change", "path.1.lane_change.width=3 kg"], "expected a length"),
         (&["run", "ref11", "lane_change", "--speed", "20"], "--change speed=20"),
         (&["run", "pendulum", "lane_change"], "error"),
-        (&["run", "ref11", "--figure", "path"], "maneuver"),
+        (&["run", "ref11", "--figure", "path"], "MANEUVER"),
     ] {
         let answer = fastbike(arguments);
         assert_eq!((answer.status, answer.stdout.as_str()), (2, ""), "{arguments:?}: {}", answer.stderr);

@@ -7,7 +7,7 @@ use crate::plan::base_name;
 use analyses::Variables;
 use problem::{Limit, Plant, Side};
 
-/// Roll at which a vehicle has fallen, rad: 85°. Nothing but its tires touches the road.
+/// Roll or pitch at which a vehicle has fallen, rad: 85°. Nothing but its tires touches the road.
 const FALLEN: f64 = 1.483_529_864_195_180_2;
 /// Name of the ending of a fallen vehicle.
 pub const FALL: &str = "fallen";
@@ -22,16 +22,11 @@ pub fn conditions(until: &[String], plant: &dyn Plant) -> Result<Vec<Limit>, Fai
     let variables = Variables::of(plant);
     let mut conditions = until.iter().map(|text| condition(text, &variables)).collect::<Result<Vec<_>, _>>()?;
     if let Some(base) = base_name(plant) {
-        for (side, threshold) in [(Side::Above, FALLEN), (Side::Below, -FALLEN)] {
-            let signal = format!("{base}.roll");
-            conditions.push(Limit {
-                name: FALL.into(),
-                signal,
-                threshold,
-                side,
-                nominal: 1.0,
-                about: "the vehicle lies on its side".into(),
-            });
+        for (angle, about) in [("roll", "the vehicle lies on its side"), ("pitch", "the vehicle has turned over")] {
+            for (side, threshold) in [(Side::Above, FALLEN), (Side::Below, -FALLEN)] {
+                let signal = format!("{base}.{angle}");
+                conditions.push(Limit { name: FALL.into(), signal, threshold, side, nominal: 1.0, about: about.into() });
+            }
         }
     }
     Ok(conditions)
