@@ -104,6 +104,7 @@ const MIRRORED: [&str; 21] = [
     "acceleration_y",
     "lateral_acceleration",
     "curvature",
+    "kinematic_curvature",
     "steer.angle",
     "steer.rate",
     "steer.torque",

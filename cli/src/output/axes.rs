@@ -85,6 +85,7 @@ const RULES: &[(&str, &str, f64)] = &[
     ("*", "moment_y", -1.0),
     ("*", "moment_z", -1.0),
     ("", "curvature", -1.0),
+    ("", "kinematic_curvature", -1.0),
     ("", "radius", -1.0),
     ("", "yaw_rate", -1.0),
     ("", "steer_torque", -1.0),
