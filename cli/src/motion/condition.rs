@@ -7,8 +7,10 @@ use crate::plan::base_name;
 use analyses::Variables;
 use problem::{Limit, Plant, Side};
 
-/// Roll or pitch at which a vehicle has fallen, rad: 85°. Nothing but its tires touches the road.
+/// Roll at which a vehicle has fallen, rad: 85°. Nothing but its tires touches the road.
 const FALLEN: f64 = 1.483_529_864_195_180_2;
+/// Pitch at which a vehicle has turned over, rad: 120°. It will not come down on its wheels.
+const OVERTURNED: f64 = 2.094_395_102_393_195_3;
 /// Name of the ending of a fallen vehicle.
 pub const FALL: &str = "fallen";
 /// Name of the ending by a condition of the user.
@@ -22,8 +24,12 @@ pub fn conditions(until: &[String], plant: &dyn Plant) -> Result<Vec<Limit>, Fai
     let variables = Variables::of(plant);
     let mut conditions = until.iter().map(|text| condition(text, &variables)).collect::<Result<Vec<_>, _>>()?;
     if let Some(base) = base_name(plant) {
-        for (angle, about) in [("roll", "the vehicle lies on its side"), ("pitch", "the vehicle has turned over")] {
-            for (side, threshold) in [(Side::Above, FALLEN), (Side::Below, -FALLEN)] {
+        // wheels that cannot lift roll on, and a bicycle that lies down pitches with them
+        let lifts = plant.limits().iter().any(|limit| limit.name == "wheel_lifted");
+        let ways = if lifts { 2 } else { 1 };
+        let angles = [("roll", FALLEN, "the vehicle lies on its side"), ("pitch", OVERTURNED, "the vehicle has turned over")];
+        for (angle, most, about) in angles.into_iter().take(ways) {
+            for (side, threshold) in [(Side::Above, most), (Side::Below, -most)] {
                 let signal = format!("{base}.{angle}");
                 conditions.push(Limit { name: FALL.into(), signal, threshold, side, nominal: 1.0, about: about.into() });
             }
