@@ -85,7 +85,7 @@ fn methods_agree() {
 }
 
 /// Quantities that change their sign in the mirror, by the last part of their names; all others keep it.
-const MIRRORED: [&str; 21] = [
+const MIRRORED: [&str; 22] = [
     "y",
     "yaw",
     "roll",
