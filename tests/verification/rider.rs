@@ -61,13 +61,16 @@ struct Riding {
     regulator: Regulator,
 }
 
+/// Target over speed where the speed is a node of the table: `1/√(0.85 · 1.15)`.
+const AT_NODE: f64 = 1.011_443_475;
+
 /// With human limits: reaction time and muscles of theory manual 10.6.
 fn human() -> RiderDescription {
     serde_json::from_value(json!({ "delay": "0.1 s", "muscles": "30 rad/s" })).expect("a rider")
 }
 
 impl Riding {
-    fn of(model: &str, speed: f64, lateral: f64, wishes: &RiderDescription) -> Self {
+    fn of(model: &str, (speed, target): (f64, f64), lateral: f64, wishes: &RiderDescription) -> Self {
         let vehicle = Vehicle::bundled(model);
         let request = if lateral == 0.0 { running(&[speed]) } else { turning(&[speed], Turn::LateralAcceleration, &[lateral]) };
         let state = vehicle.state(&request);
@@ -75,7 +78,6 @@ impl Riding {
         let curvature = yaw_rate / along.hypot(across);
         // nodes of the table: speeds at 0.85 and 1.15 of the target and at their geometric mean, lateral accelerations every 2 m/s² up to 1.15 times what
         // is asked for and 0.5 m/s²
-        let target = speed / (0.85f64 * 1.15).sqrt();
         let sharpest = (6.0 - 0.5) / 1.15 / (target * target);
         let mut layout = Layout::default();
         layout.bend(1000.0, curvature, curvature);
@@ -139,7 +141,7 @@ fn derivatives_of_the_closed_loop_are_exact() {
     let mut agreement = Agreement::on("derivatives of the closed loop");
     let differences = absolute(1e-9).or_relative(1e-6).because("step 1e-4 with one extrapolation");
     for (model, wishes) in ["ref11", "gsxr1000"].into_iter().flat_map(|m| [(m, RiderDescription::default()), (m, human())]) {
-        let mut riding = Riding::of(model, 25.0, 3.0, &wishes);
+        let mut riding = Riding::of(model, (25.0, 25.0), 3.0, &wishes);
         let mut numbers = Numbers(7);
         let nominal: Vec<f64> = riding.closed.unknowns().iter().map(|k| k.nominal).collect();
         for (y, nominal) in riding.y.iter_mut().zip(&nominal) {
@@ -214,7 +216,7 @@ fn poles_are_those_of_the_design() {
     for (model, wishes) in ["ref11", "gsxr1000"].into_iter().flat_map(|m| [(m, RiderDescription::default()), (m, human())]) {
         for lateral in [0.0, 2.0, -2.0] {
             let what = format!("{model} at {lateral} m/s² {:?}", wishes.delay.is_some());
-            let mut riding = Riding::of(model, 25.0, lateral, &wishes);
+            let mut riding = Riding::of(model, (25.0, AT_NODE * 25.0), lateral, &wishes);
             let linear = riding.linear();
             let speed =
                 |name: &str| name == "chassis.forward_speed" || name.ends_with("_wheel.spin_rate") || name == "rider.speed_integral";
@@ -264,7 +266,7 @@ fn small_motions_are_those_of_the_frequency_response() {
     let mut agreement = Agreement::on("responses over time and frequency");
     let outputs = ["chassis.roll", "steer.angle", "steer.torque", "chassis.yaw_rate"].map(str::to_owned);
     for model in ["ref11", "gsxr1000"] {
-        let mut riding = Riding::of(model, 25.0, 0.0, &RiderDescription::default());
+        let mut riding = Riding::of(model, (25.0, 25.0), 0.0, &RiderDescription::default());
         let linear = riding.linear();
         let excitation = [Excitation::input("wind.lateral")];
         let mut response = FrequencyResponse::of(&linear, &excitation, &outputs).unwrap_or_else(|error| panic!("{error}"));

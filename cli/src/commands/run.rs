@@ -144,7 +144,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         animation::page_of_run(&scene, &history, &told, arguments.output.angles())
     });
     let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| match picture {
-        Some(picture) => Ok(ride::figure(history, picture)?),
+        Some(picture) => ride::figure(history, picture),
         None => figure(history, &drawn),
     });
     context.console.complain(&ended.unwrap_or_default());

@@ -1,5 +1,6 @@
 //! Figures of a ride: histories, the path from above, accelerations to the front and to the side.
 
+use crate::Failure;
 use crate::output::{Angles, History};
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use clap::ValueEnum;
@@ -31,12 +32,12 @@ const HISTORIES: Panels = [
 ///
 /// # Errors
 /// A signal that it needs was not recorded.
-pub fn figure(history: &History, picture: Picture) -> Result<Figure, Finding> {
-    let column = |name: &str| -> Result<(&str, &[f64]), Finding> {
+pub fn figure(history: &History, picture: Picture) -> Result<Figure, Failure> {
+    let column = |name: &str| -> Result<(&str, &[f64]), Failure> {
         let at = history.signals.iter().position(|s| s.name == name);
         let at = at.ok_or_else(|| {
-            Finding::error("not_recorded", format!("this figure needs `{name}`, which was not recorded"))
-                .with_hint("it is a figure of rides; leave out `--record`, and name a maneuver that somebody rides")
+            let finding = Finding::error("not_recorded", format!("this figure needs `{name}`, which was not recorded"));
+            Failure::from(finding.with_hint("it is a figure of rides; leave out `--record`, and name a maneuver that somebody rides"))
         })?;
         Ok((&history.signals[at].unit, &history.columns[at]))
     };
@@ -53,7 +54,7 @@ pub fn figure(history: &History, picture: Picture) -> Result<Figure, Finding> {
                 let unit = column(curves[0].1)?.0;
                 let shown = Angles::Degrees.show(unit);
                 let one = |(name, signal): &(&str, &str)| Ok(curve(name, &history.time, column(signal)?.1, shown.factor));
-                let curves = curves.iter().map(one).collect::<Result<_, Finding>>()?;
+                let curves = curves.iter().map(one).collect::<Result<_, Failure>>()?;
                 panels.push(LinePanel { y: Axis::new(title, shown.unit), curves });
             }
             ("Ride", Axis::new("time", "s"), panels)
