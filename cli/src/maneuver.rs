@@ -15,6 +15,10 @@ use std::sync::Arc;
 /// Name of the ending at the end of the path.
 pub const GOAL: &str = "end_of_path";
 
+/// Name of the ending far from the path, and how far that is, m: what was planned there has nothing to do with where the vehicle is.
+pub const LOST: &str = "off_the_path";
+const FAR_OFF: f64 = 20.0;
+
 /// Share of the front brake where the loads do not say it.
 const FRONT_BRAKE_SHARE: f64 = 0.7;
 
@@ -31,8 +35,8 @@ pub struct Ride {
     pub longest_step: f64,
     /// When it ends at the latest, s.
     pub end: f64,
-    /// What is the end of it, where there is a rider to tell.
-    pub goal: Option<Limit>,
+    /// What is the end of it, good or bad, where there is a rider to tell.
+    pub ends: Vec<Limit>,
     /// What the reader should know.
     pub warnings: Vec<String>,
 }
@@ -44,7 +48,7 @@ impl Default for Ride {
             inputs: Vec::new(),
             longest_step: f64::INFINITY,
             end: f64::INFINITY,
-            goal: None,
+            ends: Vec::new(),
             warnings: Vec::new(),
         }
     }
@@ -97,14 +101,17 @@ pub fn ride(name: &str, maneuver: Maneuver, system: &Arc<System>) -> Result<Ride
     }
     let end = course.path.length();
     let designed = task.design(maneuver.course)?;
-    let goal = Limit {
-        name: GOAL.into(),
-        signal: "rider.station".to_owned(),
-        threshold: end,
-        side: Side::Above,
+    let limit = |name: &'static str, signal: &str, side, threshold, about: &'static str| Limit {
+        name: name.into(),
+        signal: signal.to_owned(),
+        threshold,
+        side,
         nominal: 1.0,
-        about: "the path ends".into(),
+        about: about.into(),
     };
+    let lost = |side, threshold| limit(LOST, "rider.path_error", side, threshold, "the rider has lost the path");
+    let ends =
+        vec![limit(GOAL, "rider.station", Side::Above, end, "the path ends"), lost(Side::Above, FAR_OFF), lost(Side::Below, -FAR_OFF)];
     controllers.push(Box::new(designed.rider));
-    Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, goal: Some(goal), warnings: designed.warnings, ..Ride::default() })
+    Ok(Ride { controllers, inputs: maneuver.inputs, longest_step, ends, warnings: designed.warnings, ..Ride::default() })
 }

@@ -27,6 +27,9 @@ use std::time::Instant;
 
 /// Rate at which an error of the constraints decays in the formulation of accelerations, 1/s.
 const DECAY: f64 = 10.0;
+/// Average step below which a motion is given up, s, and steps that are allowed in any case.
+const SHORTEST_STEP: f64 = 5e-6;
+const FEWEST_STEPS: usize = 2000;
 /// The relative tolerance at which absolute tolerances are those that the signals declare.
 const USUAL_TOLERANCE: f64 = 1e-6;
 /// What table and figure show of a vehicle, where the user does not choose.
@@ -97,7 +100,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     }
     // all levels of the constraints stand in the rows of GGL, so the explicit form is judged by them
     let tree = TreePlant::in_formulation(system.clone(), if explicit { Formulation::Ggl } else { formulation });
-    let Ride { controllers, inputs, longest_step: max_step, end, goal, warnings: of_ride } = ride.unwrap_or_default();
+    let Ride { controllers, inputs, longest_step: max_step, end, ends, warnings: of_ride } = ride.unwrap_or_default();
     warnings.extend(of_ride);
     let mut plant = ClosedLoop::new(tree, controllers).map_err(|e| Finding::error("signal_clash", e.to_string()))?;
     let mut beginning = match &request.steady {
@@ -115,10 +118,11 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         relative_tolerance: request.relative_tolerance,
         absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),
         max_step,
+        max_steps: most_steps(&transient.times),
         ..IntegrationOptions::default()
     };
     transient.ends = condition::conditions(&request.until, &plant)?;
-    transient.ends.extend(goal);
+    transient.ends.extend(ends);
     transient.breaks = plant.breaks();
     let (n, nu) = (system.unknowns().len(), system.inputs().len());
     // what is commanded is an output of the whole
@@ -187,6 +191,12 @@ fn kept(all: &Trajectory, told: Range<usize>) -> Trajectory {
         list[..told.start].iter().chain(&list[told.end..]).cloned().collect()
     }
     Trajectory { time: all.time.clone(), signals: others(&all.signals, &told), columns: others(&all.columns, &told) }
+}
+
+/// Most steps between two samples: what takes more has steps of some microseconds and will not end.
+fn most_steps(times: &[f64]) -> usize {
+    let longest = times.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+    (longest / SHORTEST_STEP) as usize + FEWEST_STEPS
 }
 
 /// What multiplies absolute tolerances.
