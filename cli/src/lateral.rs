@@ -31,6 +31,14 @@ pub fn law(written: LateralLaw) -> Lateral {
     }
 }
 
+/// The law of a rider in words.
+pub fn about(written: LateralLaw) -> &'static str {
+    match written {
+        LateralLaw::Preview => "feedback of all states, with preview",
+        LateralLaw::Pid => "two loops: the path asks for lateral acceleration (its gains are m/s² per unit), lean asks for torque",
+    }
+}
+
 /// Previews that are worth trying, s, of those on offer.
 pub fn previews(written: LateralLaw, offered: Vec<f64>) -> Vec<f64> {
     match written {

@@ -245,7 +245,7 @@ impl Task<'_> {
             feedback.extend(self.wishes.delay.is_some().then_some(delay).into_iter().flatten());
             feedback.extend(self.wishes.muscles.is_some().then_some(lag).into_iter().flatten());
         }
-        Ok((steady, RiderAlong { effort: "N m".to_owned(), feedback, points }))
+        Ok((steady, RiderAlong { law: lateral::about(self.wishes.lateral), effort: "N m".to_owned(), feedback, points }))
     }
 
     /// What is wanted, for a preview (s).

@@ -46,6 +46,19 @@ fn human_limits_are_part_of_the_design() {
 }
 
 #[test]
+fn the_rider_in_two_loops_is_designed_too() {
+    let report = json(&with(&DESIGN, &["--lateral", "pid", "--format", "json"]), 0);
+    for point in report["points"].as_array().expect("points") {
+        let rider = &point["rider"];
+        assert!(rider["closed"].as_array().expect("poles").iter().all(|s| number(&s["re"]) < 0.0), "{rider}");
+        // positive in the counter-steering sense: theory manual 10.3
+        assert!(number(&rider["gains"]["chassis.roll"]) > 0.0 && number(&rider["gains"]["chassis.roll_rate"]) > 0.0, "{rider}");
+    }
+    assert!(fastbike(&with(&DESIGN, &["--lateral", "pid"])).stdout.contains("two loops"));
+    assert_eq!(fastbike(&with(&DESIGN, &["--lateral", "lqg"])).status, 2);
+}
+
+#[test]
 fn table_and_csv_hold_the_same_numbers() {
     let table = fastbike(&DESIGN);
     assert_eq!((table.status, table.stderr.as_str()), (0, ""));

@@ -12,7 +12,7 @@ use clap::{ArgMatches, Args, Command, ValueEnum};
 use mbody::description::finding::{Finding, Severity};
 use mbody::description::quantity::Quantity;
 use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Length, Speed, Time, Torque};
-use motorcycle::maneuver::RiderDescription;
+use motorcycle::maneuver::{LateralLaw, RiderDescription};
 use problem::Signal;
 
 /// Row of the table of commands.
@@ -40,6 +40,9 @@ struct Arguments {
     /// Lateral acceleration, positive to the left
     #[arg(long, value_name = "ACCELERATION", default_value = "0", allow_hyphen_values = true)]
     lateral_acceleration: String,
+    /// How the rider steers: preview (feedback of all states and of the way ahead) or pid (the path asks for lean, lean asks for torque)
+    #[arg(long, value_name = "LAW", value_parser = ["preview", "pid"], default_value = "preview")]
+    lateral: String,
     /// Offset from the path that counts as much as --heading and --torque
     #[arg(long, value_name = "LENGTH", default_value = "0.15m", allow_hyphen_values = true)]
     offset: String,
@@ -95,6 +98,7 @@ fn wishes(arguments: &Arguments) -> Result<RiderDescription, Failure> {
         torque: some::<Torque>("torque", Some(&arguments.torque))?,
         delay: some::<Time>("delay", arguments.delay.as_ref())?,
         muscles: some::<AngularSpeed>("muscles", arguments.muscles.as_ref())?,
+        lateral: if arguments.lateral == "pid" { LateralLaw::Pid } else { LateralLaw::Preview },
         ..RiderDescription::default()
     })
 }

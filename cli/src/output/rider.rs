@@ -14,6 +14,8 @@ use std::io;
 /// Regulators at all points of a report.
 #[derive(Clone, Debug, Default)]
 pub struct RiderAlong {
+    /// How the rider steers, in words.
+    pub law: &'static str,
     /// Unit of the input.
     pub effort: String,
     /// What is fed back, the path and the states of the human last.
@@ -43,6 +45,7 @@ fn crossover(regulator: &Regulator) -> f64 {
 pub(super) fn add_json(along: &RiderAlong, object: &mut Value) {
     let units: Map<String, Value> =
         along.feedback.iter().map(|s| (s.name.clone(), json!(format!("({})/({})", along.effort, s.unit)))).collect();
+    object["law"] = json!(along.law);
     object["gain_units"] = units.into();
     for (k, point) in along.points.iter().enumerate() {
         match point {
@@ -88,7 +91,7 @@ pub(super) fn write_csv(report: &Report, along: &RiderAlong, out: &mut dyn io::W
 pub(super) fn write_table(report: &Report, along: &RiderAlong, options: &Options, out: &mut dyn io::Write) -> io::Result<()> {
     let (fixed, mut columns) = table::prescribed_columns(report, &report.points, options);
     table::write_given(report, &fixed, options, out)?;
-    writeln!(out, "feedback of all states with preview; margins of the loop cut at the torque that the rider wants")?;
+    writeln!(out, "{}; margins of the loop cut at the torque that the rider wants", along.law)?;
     let value = |f: &dyn Fn(&Regulator) -> f64| along.points.iter().map(|p| p.as_ref().map_or(f64::NAN, f)).collect::<Vec<_>>();
     let mut add = |title: &str, unit: &str, f: &dyn Fn(&Regulator) -> f64| {
         columns.push(Column::new(title, unit, value(f).into_iter(), options.angles));
