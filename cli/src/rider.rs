@@ -32,8 +32,8 @@ const INTERVAL: f64 = 0.05;
 /// Previews that are tried, s, and the share of the kernel at which one is long enough.
 const PREVIEWS: [f64; 4] = [2.0, 3.0, 4.5, 6.0];
 const FAR_ENOUGH: f64 = 0.01;
-/// Lead of the schedule before the path, s: about the time in which a motorcycle leans.
-const LEAD: f64 = 0.3;
+/// Lead of the schedule before the path, s: lean comes about so much before the curvature that it answers.
+const LEAD: f64 = 0.5;
 /// Bandwidth of the speed loop, rad/s, critically damped.
 const SPEED_BANDWIDTH: f64 = 0.7;
 /// Slowest speed of the table, m/s.
