@@ -116,7 +116,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let mut transient = Transient::new(&plant, request.times.iter().copied().filter(|t| *t <= end).collect());
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
-        absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit),
+        absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit || system.constraints().is_empty()),
         max_step,
         max_steps: most_steps(&transient.times),
         ..IntegrationOptions::default()
@@ -201,11 +201,11 @@ fn most_steps(times: &[f64]) -> usize {
 
 /// What multiplies absolute tolerances.
 ///
-/// Those of the implicit form are not tightened: the rounding of a closed loop over a short step is all that a tighter tolerance of the
+/// Those of the implicit form with constraints are not tightened: the rounding of a closed loop over a short step is all that a tighter tolerance of the
 /// stabilizing multipliers would ask for.
-fn absolute_factor(relative_tolerance: f64, explicit: bool) -> f64 {
+fn absolute_factor(relative_tolerance: f64, follows: bool) -> f64 {
     let factor = relative_tolerance / USUAL_TOLERANCE;
-    if explicit { factor } else { factor.max(1.0) }
+    if follows { factor } else { factor.max(1.0) }
 }
 
 fn formulation(name: Option<&str>) -> Result<Formulation, Failure> {
