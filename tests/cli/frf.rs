@@ -120,3 +120,25 @@ fn figures_are_written() {
     let single = fastbike(&["frf", "ref11", "--speed", "30", "--frequency", "1", "--plot", &text]);
     assert_eq!(single.status, 2, "{}", single.stderr);
 }
+
+#[test]
+fn variants_stand_beside_the_base() {
+    // without its damper the steering swings further near the wobble
+    let variant = "steering_damper.coefficient=0";
+    let report = json(&["frf", "gsxr1000", "--speed", "30", "--frequency", "7", "--versus", variant, "--format", "json"], 0);
+    let magnitude = |point: &Value| number(&point["responses"][1]["magnitude"][0]);
+    let (base, other) = (magnitude(&report["points"][0]), magnitude(&report["versus"][0]["points"][0]));
+    assert!(other > 1.5 * base, "{base} {other}");
+    for command in [
+        &["frf", "gsxr1000", "--speed", "30", "--frequency", "2,7", "--versus", variant][..],
+        &["slalom", "gsxr1000", "--speed", "10,20", "--versus", variant],
+        &["comfort", "gsxr1000", "--speed", "10,20", "--versus", variant],
+    ] {
+        let answer = fastbike(command);
+        assert!(
+            answer.status == 0 && answer.stdout.contains(variant) && answer.stdout.contains("difference"),
+            "{command:?}: {}",
+            answer.stdout
+        );
+    }
+}

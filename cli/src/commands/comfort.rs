@@ -3,12 +3,14 @@
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, unknown_name};
 use crate::figures::modes::quantity;
+use crate::model::Loaded;
 use crate::output::comfort::{Class, ComfortAlong};
-use crate::output::{Beside, Report};
-use crate::plan::TrimArguments;
+use crate::output::{Beside, Report, Variant};
+use crate::plan::{Request, TrimArguments};
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::responses::{Excited, Job, Road};
+use crate::responses::{Excited, Job, Road, names_of_variants};
 use crate::small_motions::{FROZEN, SmallMotions, accelerates};
+use crate::steady::Steady;
 use crate::{Context, Exit, Failure, model, results, steady};
 use analyses::comfort::{Direction, comfort};
 use analyses::weighting::{WD, WK};
@@ -34,6 +36,9 @@ struct Arguments {
     /// Point that is judged: an element of the kind `point_sensor`
     #[arg(long, value_name = "ELEMENT", default_value = "saddle")]
     point: String,
+    /// The same analysis for a variant: another description, or `PATH=VALUE` as in --set (repeatable)
+    #[arg(long, value_name = "FILE|PATH=VALUE")]
+    versus: Vec<String>,
 }
 
 fn command(command: Command) -> Command {
@@ -63,16 +68,35 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     }
     let classes = classes(&arguments.road_class)?;
     let loaded = model::load(&arguments.model, context)?;
+    let (steady, along) = shaken(&arguments, (&request, &classes), &loaded, "steady states")?;
+    let mut report = results::report("comfort", &loaded.name, Vec::new(), steady);
+    report.beside = Beside::Comfort(along);
+    for variant in &arguments.versus {
+        let loaded = model::load(&arguments.model.variant(variant), context)?;
+        let (steady, along) = shaken(&arguments, (&request, &classes), &loaded, variant)?;
+        let points = results::in_order_of(&report.signals, steady);
+        report.variants.push(Variant { name: variant.clone(), points, beside: Beside::Comfort(along) });
+    }
+    results::deliver(context, (&arguments.model, &arguments.output), report, figure)
+}
+
+/// Steady states of a model and how they are shaken. `what` names the job for the progress bar.
+fn shaken(
+    arguments: &Arguments,
+    (request, classes): (&Request, &[Class]),
+    loaded: &Loaded,
+    what: &str,
+) -> Result<(Steady, ComfortAlong), Failure> {
     let (system, backend) = (&loaded.assembled.system, arguments.trim.backend.as_str());
     let outputs = outputs(&arguments.point, system)?;
     let excited = Excited { inputs: Vec::new(), road: Some(Road::Both) };
     excited.check(system)?;
-    let mut steady = steady::run(&request, system, backend, "steady states")?;
+    let mut steady = steady::run(request, system, backend, what)?;
     steady.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(ToString::to_string));
     if accelerates(request.acceleration.as_ref()) {
         steady.warnings.push(FROZEN.to_owned());
     }
-    let small = SmallMotions { request: &request, system, backend, residual_tolerance: 1e-6 };
+    let small = SmallMotions { request, system, backend, residual_tolerance: 1e-6 };
     let job = Job { steady: &steady, excited: &excited, outputs: &outputs };
     let directions = DIRECTIONS.map(|(_, direction)| direction);
     let unit = Roughness { level: 1.0, exponent: 2.0 };
@@ -82,10 +106,8 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         comfort(&mut response, &directions, &|frequency| unit.density_at_speed(frequency, speed))
     });
     let directions = outputs.iter().zip(DIRECTIONS).map(|(name, (_, d))| (name.clone(), d.weighting.name.to_owned()));
-    let along = ComfortAlong { point: arguments.point.clone(), directions: directions.collect(), classes, points };
-    let mut report = results::report("comfort", &loaded.name, Vec::new(), steady);
-    report.beside = Beside::Comfort(along);
-    results::deliver(context, (&arguments.model, &arguments.output), report, figure)
+    let along = ComfortAlong { point: arguments.point.clone(), directions: directions.collect(), classes: classes.to_vec(), points };
+    Ok((steady, along))
 }
 
 /// `A`, `A,C` or `A..E`.
@@ -135,11 +157,19 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
         return Err(finding.with_hint("sweep the speed, for example `--speed 5..60:1`").into());
     }
     let mut curves: Vec<Curve> = Vec::new();
-    let mut add = |name: String, at: f64, value: f64| match curves.iter_mut().find(|c| c.name == name) {
-        Some(curve) => curve.points.push((at, value)),
-        None => curves.push(Curve { name, points: vec![(at, value)], markers: Markers::Never, variant: 0 }),
-    };
-    for (k, point) in report.points.iter().enumerate() {
+    let mut add =
+        |variant: usize, name: String, at: f64, value: f64| match curves.iter_mut().find(|c| c.name == name && c.variant == variant) {
+            Some(curve) => curve.points.push((at, value)),
+            None => curves.push(Curve { name, points: vec![(at, value)], markers: Markers::Never, variant }),
+        };
+    let others = report.variants.iter().filter_map(|v| match &v.beside {
+        Beside::Comfort(along) => Some(along),
+        _ => None,
+    });
+    let all: Vec<&ComfortAlong> = std::iter::once(along).chain(others).collect();
+    let points =
+        all.iter().enumerate().flat_map(|(v, along)| report.points.iter().enumerate().map(move |(k, point)| (v, *along, k, point)));
+    for (variant, along, k, point) in points {
         let others: Vec<String> = (1..report.given.len())
             .filter(|&g| varies(g))
             .map(|g| quantity(&report.given[g].name, &report.given[g].unit, point.given[g]))
@@ -149,11 +179,11 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
             if let ([_], true) = (along.classes.as_slice(), others.is_empty()) {
                 for (i, (name, weighting)) in along.directions.iter().enumerate() {
                     let component = name.rsplit_once('_').map_or(name.as_str(), |(_, component)| component);
-                    add(format!("{component}, {weighting}"), point.given[0], along.weighted(k, i, class));
+                    add(variant, format!("{component}, {weighting}"), point.given[0], along.weighted(k, i, class));
                 }
-                add("sum".to_owned(), point.given[0], along.total(k, class));
+                add(variant, "sum".to_owned(), point.given[0], along.total(k, class));
             } else {
-                add(named(&format!("class {}", class.name)), point.given[0], along.total(k, class));
+                add(variant, named(&format!("class {}", class.name)), point.given[0], along.total(k, class));
             }
         }
     }
@@ -168,6 +198,6 @@ fn figure(report: &Report) -> Result<Figure, Failure> {
         x: Axis::new("speed", "m/s"),
         panels: vec![LinePanel { y: Axis::new("weighted acceleration", "m/s^2"), curves }],
         bands: Vec::new(),
-        variants: Vec::new(),
+        variants: names_of_variants(report),
     }))
 }

@@ -1,6 +1,7 @@
 //! Ride comfort: one line per point and class of road, JSON, CSV.
 
-use super::report::Report;
+use super::palette::styled;
+use super::report::{Beside, Report};
 use super::table::{self, Column};
 use super::{Options, csv, responses};
 use analyses::Comfort;
@@ -114,5 +115,16 @@ pub(super) fn write_table(report: &Report, along: &ComfortAlong, options: &Optio
     columns.push(Column::new("above 20 Hz", "%", points().map(|k| 100.0 * along.share_above(k)), options.angles));
     table::write_columns(&columns, &report.points, options, out)?;
     table::write_summary(report, &report.points, options, out)?;
+    for variant in &report.variants {
+        let Beside::Comfort(other) = &variant.beside else { continue };
+        writeln!(out, "\n{}", styled(options.palette.heading, &format!("versus {} (difference = variant - base)", variant.name)))?;
+        let (_, mut columns) = table::prescribed_columns(report, &report.points, options);
+        for class in &along.classes {
+            let (before, after) = (|k: usize| along.total(k, class), |k: usize| other.total(k, class));
+            columns.push(Column::new(&format!("road {}: sum", class.name), UNIT, points().map(after), options.angles));
+            columns.push(Column::new("difference", UNIT, points().map(|k| after(k) - before(k)), options.angles));
+        }
+        table::write_columns(&columns, &report.points, options, out)?;
+    }
     responses::refusals(along.points.iter().map(|p| p.as_ref().err()), report, options, out)
 }

@@ -54,6 +54,7 @@ pub(super) fn object(report: &Report) -> Value {
             match &v.beside {
                 Beside::Modes(modes) => modes::add_json(modes, &report.given, &mut object),
                 Beside::Responses(responses) => responses::add_json(responses, &mut object),
+                Beside::Comfort(comfort) => comfort::add_json(comfort, &mut object),
                 _ => {}
             }
             object
