@@ -21,6 +21,7 @@
 
 use crate::LinearModel;
 use crate::eigen::{balance, similar};
+use crate::hessenberg::Hessenberg;
 use crate::variable::rate_unit;
 use nalgebra::{Complex, DMatrix};
 use problem::Signal;
@@ -108,24 +109,13 @@ pub struct FrequencyResponse {
     pub outputs: Vec<Signal>,
     excitations: Vec<Vec<Part>>,
     watched: Vec<Watched>,
-    /// Upper Hessenberg matrix by rows.
-    hessenberg: Vec<f64>,
-    states: usize,
     /// States by columns of inputs, and by the columns of their rates.
     b: [DMatrix<f64>; 2],
     /// One contiguous row of the states for every watched signal.
     c: Vec<f64>,
     /// Watched signals by columns of inputs, and of their rates.
     d: [DMatrix<f64>; 2],
-    work: Work,
-}
-
-/// Real and imaginary parts, so that rows are added without shuffling.
-#[derive(Clone, Debug)]
-struct Work {
-    matrix: [Vec<f64>; 2],
-    /// One row per state: right-hand sides, then solutions.
-    right: [Vec<f64>; 2],
+    work: Hessenberg,
 }
 
 impl FrequencyResponse {
@@ -164,18 +154,15 @@ impl FrequencyResponse {
         };
         let C = rows.iter().map(|r| whole.watch(model, r.place).0 * &reduced.out_of);
         let D = DMatrix::from_fn(rows.len(), model.inputs.len(), |i, k| whole.watch(model, rows[i].place).1[k]);
-        let (n, m) = (reduced.M.nrows(), excitations.len());
         Ok(Self {
             inputs: excitations.iter().map(|e| signal_of(model, e)).collect(),
             outputs: rows.iter().map(|r| r.signal(model)).collect(),
             excitations: excited,
             watched: rows.iter().enumerate().map(|(row, r)| Watched { row, rate: r.rate }).collect(),
-            hessenberg: reduced.M.transpose().as_slice().to_vec(),
-            states: n,
             b: [reduced.B.select_columns(&columns), of_rates(&reduced.B)],
             c: C.flat_map(|row| row.iter().copied().collect::<Vec<f64>>()).collect(),
             d: [D.select_columns(&columns), of_rates(&D)],
-            work: Work { matrix: [vec![0.0; n * n], vec![0.0; n * n]], right: [vec![0.0; n * m], vec![0.0; n * m]] },
+            work: Hessenberg::new(&reduced.M, excitations.len()),
         })
     }
 
@@ -189,8 +176,8 @@ impl FrequencyResponse {
     pub fn at(&mut self, omega: f64, responses: &mut [Complex<f64>]) {
         assert_eq!(responses.len(), self.inputs.len() * self.outputs.len(), "one place for every response");
         self.load(omega);
-        self.work.solve(self.states, self.excitations.len());
-        let (n, m) = (self.states, self.excitations.len());
+        self.work.solve(omega);
+        let (n, m) = (self.work.states(), self.excitations.len());
         let s = Complex::new(0.0, omega);
         for (k, parts) in self.excitations.iter().enumerate() {
             for (i, watched) in self.watched.iter().enumerate() {
@@ -206,16 +193,9 @@ impl FrequencyResponse {
         }
     }
 
-    /// `jω − M` and the right-hand sides.
+    /// The right-hand sides.
     fn load(&mut self, omega: f64) {
-        let n = self.states;
-        let [re, im] = &mut self.work.matrix;
-        im.fill(0.0);
-        for (to, from) in re.iter_mut().zip(&self.hessenberg) {
-            *to = -from;
-        }
-        im.iter_mut().step_by(n + 1).for_each(|entry| *entry = omega);
-        let m = self.excitations.len();
+        let (n, m) = (self.work.states(), self.excitations.len());
         for (k, parts) in self.excitations.iter().enumerate() {
             for i in 0..n {
                 (self.work.right[0][i * m + k], self.work.right[1][i * m + k]) = (0.0, 0.0);
@@ -238,56 +218,6 @@ impl Part {
     fn amplitude(&self, omega: f64) -> Complex<f64> {
         let late = if self.delay == 0.0 { Complex::new(1.0, 0.0) } else { Complex::from_polar(1.0, -omega * self.delay) };
         if self.integrated { late / Complex::new(0.0, omega) } else { late }
-    }
-}
-
-impl Work {
-    /// Gaussian elimination of an upper Hessenberg matrix: only the next row can be the pivot.
-    fn solve(&mut self, n: usize, m: usize) {
-        let ([re, im], [rr, ri]) = (&mut self.matrix, &mut self.right);
-        for k in 0..n.saturating_sub(1) {
-            let (row, next) = (k * n, (k + 1) * n);
-            let size = |at: usize, im: &[f64], re: &[f64]| re[at] * re[at] + im[at] * im[at];
-            if size(next + k, im, re) > size(row + k, im, re) {
-                swap(re, row + k, next + k, n - k);
-                swap(im, row + k, next + k, n - k);
-                swap(rr, k * m, (k + 1) * m, m);
-                swap(ri, k * m, (k + 1) * m, m);
-            }
-            let factor = Complex::new(re[next + k], im[next + k]) / Complex::new(re[row + k], im[row + k]);
-            if factor != Complex::new(0.0, 0.0) {
-                subtract(factor, (row + k + 1, next + k + 1, n - k - 1), re, im);
-                subtract(factor, (k * m, (k + 1) * m, m), rr, ri);
-            }
-        }
-        for k in (0..n).rev() {
-            let pivot = Complex::new(1.0, 0.0) / Complex::new(re[k * n + k], im[k * n + k]);
-            for e in 0..m {
-                let mut sum = Complex::new(rr[k * m + e], ri[k * m + e]);
-                for j in k + 1..n {
-                    let (a, b, x, y) = (re[k * n + j], im[k * n + j], rr[j * m + e], ri[j * m + e]);
-                    sum -= Complex::new(a * x - b * y, a * y + b * x);
-                }
-                let solution = sum * pivot;
-                (rr[k * m + e], ri[k * m + e]) = (solution.re, solution.im);
-            }
-        }
-    }
-}
-
-/// Swaps two rows of one part.
-fn swap(part: &mut [f64], a: usize, b: usize, length: usize) {
-    let (upper, lower) = part.split_at_mut(b);
-    upper[a..a + length].swap_with_slice(&mut lower[..length]);
-}
-
-/// Subtracts `factor` times the row that starts at the first place from the one at the second.
-fn subtract(factor: Complex<f64>, (from, to, length): (usize, usize, usize), re: &mut [f64], im: &mut [f64]) {
-    let ((re_upper, re_lower), (im_upper, im_lower)) = (re.split_at_mut(to), im.split_at_mut(to));
-    let rows = re_lower[..length].iter_mut().zip(&mut im_lower[..length]);
-    for ((x, y), (a, b)) in rows.zip(re_upper[from..from + length].iter().zip(&im_upper[from..from + length])) {
-        *x -= factor.re * a - factor.im * b;
-        *y -= factor.re * b + factor.im * a;
     }
 }
 

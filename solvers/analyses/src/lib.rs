@@ -13,6 +13,7 @@ mod condition;
 pub mod eigen;
 pub mod expression;
 pub mod frequency_response;
+mod hessenberg;
 pub mod linearize;
 pub mod modes;
 pub mod random;

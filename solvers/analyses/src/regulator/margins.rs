@@ -4,6 +4,7 @@
 //! is not: phase margin where `|L| = 1`, gain margins where L is real and negative (a factor above 1 and one below), and the distance of L from −1.
 //! Source: K. J. Åström, R. M. Murray, *Feedback Systems*, Princeton 2008, 9.3.
 
+use crate::hessenberg::Hessenberg;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 
@@ -45,12 +46,13 @@ impl Margins {
         let hessenberg = A.clone().hessenberg();
         let (Z, H) = hessenberg.unpack();
         let (b, k) = (Z.transpose() * B.column(0), (K * Z).transpose().column(0).into_owned());
-        let at = |frequency: f64| loop_at(&H, &b, &k, TAU * frequency);
+        let mut H = Hessenberg::new(&H, 1);
+        let mut at = |frequency: f64| loop_at(&mut H, (&b, &k), TAU * frequency);
         let (low, high, count) = RANGE;
         let frequency = |i: f64| low * (high / low).powf(i / (count - 1) as f64);
         let values: Vec<Complex<f64>> = (0..count).map(|i| at(frequency(i as f64))).collect();
         let distance = values.iter().map(|l| (l + 1.0).norm()).fold(f64::INFINITY, f64::min);
-        let refine = |i: usize, f: &dyn Fn(Complex<f64>) -> f64| {
+        let mut refine = |i: usize, f: &dyn Fn(Complex<f64>) -> f64| {
             let (mut a, mut b) = (i as f64, i as f64 + 1.0);
             let first = f(values[i]);
             for _ in 0..40 {
@@ -91,28 +93,10 @@ impl Margins {
 }
 
 /// `kᵀ (jω − H)⁻¹ b` with H of Hessenberg form.
-fn loop_at(H: &DMatrix<f64>, b: &DVector<f64>, k: &DVector<f64>, omega: f64) -> Complex<f64> {
-    let n = H.nrows();
-    let mut m = H.map(|e| Complex::new(-e, 0.0));
-    (0..n).for_each(|i| m[(i, i)] += Complex::new(0.0, omega));
-    let mut x = b.map(|e| Complex::new(e, 0.0));
-    // elimination of one entry per column, with the larger of two rows as pivot
-    for j in 0..n.saturating_sub(1) {
-        if m[(j + 1, j)].norm() > m[(j, j)].norm() {
-            m.swap_rows(j, j + 1);
-            x.swap_rows(j, j + 1);
-        }
-        let factor = m[(j + 1, j)] / m[(j, j)];
-        for c in j..n {
-            let above = m[(j, c)];
-            m[(j + 1, c)] -= factor * above;
-        }
-        let above = x[j];
-        x[j + 1] -= factor * above;
-    }
-    for i in (0..n).rev() {
-        let known = (i + 1..n).fold(x[i], |sum, c| sum - m[(i, c)] * x[c]);
-        x[i] = known / m[(i, i)];
-    }
-    k.iter().zip(x.iter()).map(|(k, x)| x * *k).sum()
+fn loop_at(H: &mut Hessenberg, (b, k): (&DVector<f64>, &DVector<f64>), omega: f64) -> Complex<f64> {
+    H.right[0].copy_from_slice(b.as_slice());
+    H.right[1].fill(0.0);
+    H.solve(omega);
+    let part = |x: &[f64]| k.iter().zip(x).map(|(k, x)| k * x).sum::<f64>();
+    Complex::new(part(&H.right[0]), part(&H.right[1]))
 }
