@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::arguments::argument;
 use crate::library;
 use crate::replay::replay;
-use crate::rider::Task;
+use crate::rider::{FRONT_BRAKE_SHARE, Task};
 use crate::road;
 use mbody::description::finding::{Finding, Findings};
 use mbody::dynamics::System;
@@ -18,9 +18,6 @@ pub const GOAL: &str = "end_of_path";
 /// Name of the ending far from the path, and how far that is, m: what was planned there has nothing to do with where the vehicle is.
 pub const LOST: &str = "off_the_path";
 const FAR_OFF: f64 = 20.0;
-
-/// Share of the front brake where the loads do not say it.
-const FRONT_BRAKE_SHARE: f64 = 0.7;
 
 /// Steps that an integration takes at least over the shortest bump of a road.
 const STEPS_PER_BUMP: f64 = 2.0;

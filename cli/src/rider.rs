@@ -36,6 +36,8 @@ const FAR_ENOUGH: f64 = 0.01;
 const LEAD: f64 = 0.5;
 /// Bandwidth of the speed loop, rad/s, critically damped.
 const SPEED_BANDWIDTH: f64 = 0.7;
+/// Share of the front brake where the loads do not say it.
+pub const FRONT_BRAKE_SHARE: f64 = 0.7;
 /// Slowest speed of the table, m/s.
 const SLOWEST: f64 = 2.0;
 /// Accelerations at which driving and braking are measured, m/s².

@@ -51,7 +51,7 @@ impl Rode {
     /// # Errors
     /// Why it cannot.
     pub fn tried(vehicle: &Vehicle, maneuver: Maneuver, care: Care, record: &[&str]) -> Result<Self, Failure> {
-        let duration = maneuver.duration.unwrap_or_else(|| 1.2 * maneuver.course.duration() + 1.0);
+        let duration = maneuver.longest();
         let count = (duration * care.rate).ceil();
         let request = motion::Request {
             times: (0..=count as usize).map(|k| k as f64 / care.rate).collect(),

@@ -2,7 +2,7 @@
 
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, unknown_name};
-use crate::figures::modes::quantity;
+use crate::figures::quantity;
 use crate::model::Loaded;
 use crate::output::comfort::{Class, ComfortAlong};
 use crate::output::{Beside, Report, Variant};

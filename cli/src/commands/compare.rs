@@ -79,7 +79,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
             }
             let duration = match (&arguments.duration, &maneuver) {
                 (Some(duration), _) => duration.clone(),
-                (None, Some(maneuver)) => format!("{:.3}", maneuver.duration.unwrap_or_else(|| 1.2 * maneuver.course.duration() + 1.0)),
+                (None, Some(maneuver)) => format!("{:.3}", maneuver.longest()),
                 (None, None) => "5s".to_owned(),
             };
             let request = motion::Request {

@@ -2,7 +2,7 @@
 
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
-use crate::figures::modes::quantity;
+use crate::figures::quantity;
 use crate::output::responses::{Responses, quotient};
 use crate::output::{Angles, Beside, Point, Report};
 use crate::plan::TrimArguments;

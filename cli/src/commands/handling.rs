@@ -155,7 +155,7 @@ fn ride(system: &Arc<System>, text: &str) -> Result<History, Failure> {
         return Err(Failure::Findings(findings));
     };
     let speed = maneuver.course.speed.first();
-    let duration = 1.2 * maneuver.course.duration() + 1.0;
+    let duration = maneuver.longest();
     let request = motion::Request {
         times: (0..=(100.0 * duration) as usize).map(|k| 0.01 * k as f64).collect(),
         relative_tolerance: 1e-6,

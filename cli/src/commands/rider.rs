@@ -2,11 +2,11 @@
 
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
-use crate::figures::modes::quantity;
+use crate::figures::quantity;
 use crate::output::rider::{RiderAlong, loop_of};
 use crate::output::{Angles, Beside, Report, responses};
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Locus, Markers, RootLocus};
-use crate::rider::Task;
+use crate::rider::{FRONT_BRAKE_SHARE, Task};
 use crate::{Context, Exit, Failure, model, results};
 use clap::{ArgMatches, Args, Command, ValueEnum};
 use mbody::description::finding::{Finding, Severity};
@@ -110,7 +110,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let wishes = wishes(&arguments)?;
     arguments.output.check()?;
     let loaded = model::load(&arguments.model, context)?;
-    let task = Task { system: &loaded.assembled.system, backend: "kinsol", wishes: &wishes, front_brake_share: 0.7 };
+    let task = Task { system: &loaded.assembled.system, backend: "kinsol", wishes: &wishes, front_brake_share: FRONT_BRAKE_SHARE };
     let (mut steady, rider) = task.along(&speeds, &laterals)?;
     steady.warnings.extend(loaded.findings.iter().filter(|f| f.severity != Severity::Note).map(ToString::to_string));
     let mut report = results::report("rider", &loaded.name, Vec::new(), steady);

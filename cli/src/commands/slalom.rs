@@ -4,7 +4,7 @@
 
 use super::{Kind, read};
 use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
-use crate::figures::modes::quantity;
+use crate::figures::quantity;
 use crate::output::responses::quotient;
 use crate::output::{Angles, Beside, Point, Report};
 use crate::plan::TrimArguments;

@@ -1,5 +1,6 @@
 //! Figures of modes: root locus, frequencies and damping, shapes, sensitivities.
 
+use super::quantity;
 use crate::Failure;
 use crate::output::modes::{Branch, ModesAlong, NamedMode};
 use crate::output::{Angles, Beside, Report};
@@ -44,13 +45,6 @@ fn title(report: &Report, modes: &ModesAlong, what: &str) -> String {
         }
     }
     title
-}
-
-/// `speed 30 m/s`.
-pub fn quantity(name: &str, unit: &str, value: f64) -> String {
-    let shown = Angles::Degrees.show(unit);
-    let rounded = (value * shown.factor * 1e6).round() / 1e6;
-    format!("{} {rounded} {}", name.replace('_', " "), shown.unit).trim_end().to_owned()
 }
 
 /// Eigenvalues in the complex plane.

@@ -178,6 +178,13 @@ pub struct ReplayDescription {
     pub gain: Option<Quantity<Number, Fraction>>,
 }
 
+impl Maneuver {
+    /// How long it takes at most, s: what is written, or a fifth more than its path takes at its target speed, and a second.
+    pub fn longest(&self) -> f64 {
+        self.duration.unwrap_or_else(|| 1.2 * self.course.duration() + 1.0)
+    }
+}
+
 /// The written form of a maneuver.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
