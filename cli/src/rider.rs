@@ -189,7 +189,6 @@ impl Task<'_> {
             lead: LEAD,
             interval: steerings[0].regulator.preview.interval,
             greatest_torque: self.wishes.greatest_torque.map_or(GREATEST_TORQUE, |q| q.si()),
-            greatest_drive: f64::INFINITY,
             speed_gain: 2.0 * SPEED_BANDWIDTH,
             speed_integral_gain: SPEED_BANDWIDTH * SPEED_BANDWIDTH,
             brake_per_drive: per_speed.brake_per_drive,

@@ -16,13 +16,18 @@
 use super::schedule::Row;
 use super::{Lateral, Rider};
 use mbody::scalar::Real;
-use mbody::scalar::smooth::{ramp, sabs};
+use mbody::scalar::smooth::ramp;
 
 /// Wheel torque over which drive and brakes change over, N m.
 const CHANGE_OVER: f64 = 10.0;
 
-/// Speed below which the rider no longer divides by it, m/s.
+/// Least speed that the rider reckons with, m/s: he divides by it.
 const SLOW: f64 = 0.5;
+
+/// The speed as the rider reckons with it: itself above twice the least one, which it approaches smoothly below.
+fn reckoned<S: Real>(speed: S) -> S {
+    ramp(speed, 2.0 * SLOW) + SLOW
+}
 
 /// Most commands, states and outputs.
 pub(super) const MOST: usize = 9;
@@ -48,7 +53,7 @@ pub(super) fn bounded<S: Real>(x: S, bound: f64) -> S {
 impl Rider {
     /// Speed and lateral acceleration for which the schedule is read.
     pub(super) fn scheduled<S: Real>(&self, z: &[S], x: &[S]) -> (S, S) {
-        let V = sabs(z[3], SLOW);
+        let V = reckoned(z[3]);
         let [low, high] = self.acceleration_range();
         let a = match self.settings.lateral {
             Lateral::Preview => self.coming(x[0], V),
@@ -82,12 +87,9 @@ impl Rider {
             let whole = entry(self.layout.drive()) + per * demanded;
             let driven = ramp(whole + 0.5 * CHANGE_OVER, CHANGE_OVER);
             let braked = ramp(-whole + 0.5 * CHANGE_OVER, CHANGE_OVER) * self.settings.brake_per_drive;
-            // what the engine cannot give is not summed up
-            let driven = bounded_above(driven, self.settings.greatest_drive);
-            let missing = whole - driven - CHANGE_OVER;
             let share = -demanded * self.settings.front_share[1] + self.settings.front_share[0];
             let share = clamped(share);
-            reply.rates[integral] = lag / (ramp(missing / per, 1.0) + 1.0);
+            reply.rates[integral] = lag;
             reply.commands[1] = driven;
             reply.commands[2] = braked * share;
             reply.commands[3] = braked * (-share + 1.0);
@@ -128,11 +130,6 @@ impl Rider {
     }
 }
 
-/// A positive value bounded from above.
-fn bounded_above<S: Real>(x: S, bound: f64) -> S {
-    if bound.is_finite() { bounded(x, bound) } else { x }
-}
-
 /// A share between 0 and 1, with smooth corners.
 fn clamped<S: Real>(share: S) -> S {
     let below = ramp(share + 0.05, 0.1);
@@ -142,6 +139,12 @@ fn clamped<S: Real>(share: S) -> S {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn speeds_are_what_they_are_but_never_zero() {
+        assert!(reckoned(25.0) == 25.0 && reckoned(1.0) == 1.0);
+        assert!(reckoned(0.0) == SLOW && reckoned(-3.0) == SLOW && reckoned(0.5) > SLOW && reckoned(0.5) < 1.0);
+    }
 
     #[test]
     fn bounds_leave_small_values_alone() {

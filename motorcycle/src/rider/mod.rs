@@ -48,8 +48,6 @@ pub struct Settings {
     pub interval: f64,
     /// Greatest steering torque, N m.
     pub greatest_torque: f64,
-    /// Greatest wheel torque of the engine, N m; infinite where there is no bound.
-    pub greatest_drive: f64,
     /// Acceleration demanded per speed error, 1/s.
     pub speed_gain: f64,
     /// Acceleration demanded per integral of the speed error, 1/s².
