@@ -53,8 +53,6 @@ pub struct Node {
     pub speed: f64,
     /// Lateral acceleration, m/s², positive to the left.
     pub lateral_acceleration: f64,
-    /// Roll of the steady state, rad.
-    pub roll: f64,
     /// Feedback, preview, closed loop and margins.
     pub regulator: Regulator,
 }
@@ -65,8 +63,6 @@ pub struct Designed {
     pub rider: Rider,
     /// The nodes of its table.
     pub nodes: Vec<Node>,
-    /// What is fed back.
-    pub feedback: Vec<String>,
     /// What the reader should know.
     pub warnings: Vec<String>,
 }
@@ -176,11 +172,9 @@ impl Task<'_> {
                 row
             })
             .collect();
-        let roll = format!("{base}.roll");
         let nodes = steady.points.iter().zip(&steerings).map(|(p, s)| Node {
             speed: p.given[0],
             lateral_acceleration: p.given[1],
-            roll: value(p, &roll),
             regulator: s.regulator.clone(),
         });
         let nodes = nodes.collect();
@@ -199,12 +193,12 @@ impl Task<'_> {
         let broken = || Finding::error("no_rider", "the table of the rider does not go together");
         let laterals_count = laterals.len();
         let table = Table::new(speeds, laterals, &rows).ok_or_else(broken)?;
-        let reins = Reins { feedback: feedback.clone(), ..reins };
+        let reins = Reins { feedback, ..reins };
         let start = table.nodes().0.iter().rposition(|v| *v <= course.speed.first()).unwrap_or(0);
         let held_at_start = rows[start * laterals_count + laterals_count / 2][layout.torque()];
         let mut rider = Rider::new(reins, settings, layout, table, course).ok_or_else(broken)?;
         rider.start_with(held_at_start);
-        Ok(Designed { rider, nodes, feedback, warnings })
+        Ok(Designed { rider, nodes, warnings })
     }
 
     /// The design at every point of a grid; points without a steady state or without a stabilizing feedback say why.
