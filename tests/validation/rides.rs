@@ -229,7 +229,10 @@ fn random_rides_end_with_a_name() {
                     "{k}: told until {last} s, ridden until {:?}\n{text}",
                     history.outcome
                 );
-                assert!(history.columns.iter().flatten().all(|v| v.is_finite()), "{k}: a value is not finite\n{text}");
+                for (signal, column) in history.signals.iter().zip(&history.columns) {
+                    let lost = column.iter().position(|v| !v.is_finite());
+                    assert!(lost.is_none(), "{k}: `{}` is not finite at {:?} s of {last} s, {:?}\n{text}", signal.name, lost.map(|i| history.time[i]), history.outcome);
+                }
                 assert!(rode.ending() != "failed" || history.outcome.because.is_some(), "{k}: no cause\n{text}");
                 rode.ending().to_owned()
             }

@@ -66,18 +66,17 @@ impl<'a, 'p> Recorder<'a, 'p> {
         }
     }
 
-    /// Takes one sample. What cannot be evaluated is recorded as it is, and nothing further is asked for.
+    /// Takes one sample. One that cannot be evaluated is not part of the record, and nothing further is asked for.
     pub(super) fn sample(&mut self, time: f64, y: &[f64], yd: &[f64]) -> Flow {
-        let evaluated = self.observer.look(time, y, yd);
+        if let Err(e) = self.observer.look(time, y, yd) {
+            self.failure = Some(e);
+            return Flow::Stop;
+        }
         let observer = &self.observer;
         let value = |v: Variable| observer.value(v, (y, yd));
         self.trajectory.time.push(time);
         for (column, &v) in self.trajectory.columns.iter_mut().zip(&self.record) {
             column.push(value(v));
-        }
-        if let Err(e) = evaluated {
-            self.failure = Some(e);
-            return Flow::Stop;
         }
         if self.families.iter().any(|family| !family.rows.is_empty()) {
             let now = self.plant.borrow_mut().independence(time, y, &observer.u);

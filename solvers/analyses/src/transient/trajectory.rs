@@ -10,7 +10,7 @@ pub struct Trajectory {
     pub time: Vec<f64>,
     /// The recorded signals.
     pub signals: Vec<Signal>,
-    /// One column per signal, one value per time. What could not be evaluated is not finite.
+    /// One column per signal, one value per time. An output without a value there, as a curvature at standstill, is not finite.
     pub columns: Vec<Vec<f64>>,
 }
 
