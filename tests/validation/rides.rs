@@ -218,6 +218,7 @@ fn random_rides_end_with_a_name() {
             panic!("{text}\n{findings}")
         };
         let began = std::time::Instant::now();
+        let mut because = None;
         let ending = match Rode::tried(&vehicle, maneuver, Care::USUAL, &[]) {
             Err(failure) => format!("refused: {}", failure.to_string().lines().next().unwrap_or_default()),
             Ok(rode) => {
@@ -234,13 +235,14 @@ fn random_rides_end_with_a_name() {
                     assert!(lost.is_none(), "{k}: `{}` is not finite at {:?} s of {last} s, {:?}\n{text}", signal.name, lost.map(|i| history.time[i]), history.outcome);
                 }
                 assert!(rode.ending() != "failed" || history.outcome.because.is_some(), "{k}: no cause\n{text}");
+                because = history.outcome.because.clone();
                 rode.ending().to_owned()
             }
         };
         let took = began.elapsed().as_secs_f64();
         assert!(took < 60.0, "{k}: {took} s for\n{text}");
         if !["end_of_path", "reached"].contains(&ending.as_str()) {
-            println!("{k}: {ending} after {took:.2} s\n{text}");
+            println!("{k}: {ending} after {took:.2} s, because {because:?}\n{text}");
         }
         *endings.entry(ending).or_default() += 1;
     }
