@@ -189,3 +189,108 @@ impl Controller for Passing {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::maneuver::Layout;
+    use crate::road::relief::{KINDS, Shape};
+
+    /// A hill of the world.
+    #[derive(Debug)]
+    struct World;
+
+    impl Relief for World {
+        fn shape(&self, x: f64, y: f64) -> Shape {
+            // x² y/1000
+            Shape {
+                height: x * x * y * 1e-3,
+                first: [2e-3 * x * y, 1e-3 * x * x],
+                second: [2e-3 * y, 2e-3 * x, 0.0],
+                third: [0.0, 2e-3, 0.0, 0.0],
+            }
+        }
+        fn coordinates(&self) -> Coordinates {
+            Coordinates::World
+        }
+    }
+
+    struct NoFiles;
+
+    impl mbody::description::Library for NoFiles {
+        fn text(&self, _: &str) -> Option<std::borrow::Cow<'_, str>> {
+            None
+        }
+    }
+
+    /// Slopes, a bank, patches, waves and a hill of the world under a path that bends.
+    fn passing() -> Passing {
+        let mut layout = Layout::default();
+        layout.straight(5.0);
+        layout.bend(10.0, 0.0, 0.05);
+        layout.bend(40.0, 0.05, 0.05);
+        let kinds = ["slope", "bank", "friction", "sine"].map(|name| {
+            let kind = KINDS.iter().find(|k| k.name == name).expect("a kind");
+            (kind.make)(&serde_yaml::from_str(kind.example).expect("parameters"), &NoFiles).expect("a road").expect("not flat")
+        });
+        let reliefs = kinds.into_iter().chain([Arc::new(World) as Arc<dyn Relief>]).collect();
+        let base = ["x", "y", "yaw", "vx", "vy", "r"].map(str::to_owned);
+        Passing::new(Tracks { base, roads: ["front", "rear"].map(str::to_owned), wheelbase: 1.4 }, layout.path(), reliefs)
+    }
+
+    /// Base and stations near the path at an arc length, moving.
+    fn somewhere(passing: &Passing, s: f64) -> [f64; READ] {
+        let place = passing.path.at(s);
+        [place.x + 0.1, place.y - 0.2, place.heading + 0.03, 12.0, 0.4, 0.5, s + 1.45, s + 0.05]
+    }
+
+    #[test]
+    fn rates_are_those_of_a_vehicle_that_moves() {
+        let passing = passing();
+        for s in [12.3, 21.7, 30.45, 36.2] {
+            let at = somewhere(&passing, s);
+            let law = passing.law(&at);
+            let after = |dt: f64| {
+                let [x, y, heading, vx, vy, r, front, rear] = at;
+                // along the arc of constant velocities, to second order
+                let middle = heading + 0.5 * r * dt;
+                let (sine, cosine) = middle.sin_cos();
+                let place = [x + dt * (vx * cosine - vy * sine), y + dt * (vx * sine + vy * cosine), heading + r * dt];
+                let stations = [front + dt * law[COMMANDS], rear + dt * law[COMMANDS + 1]];
+                passing.law(&[place[0], place[1], place[2], vx, vy, r, stations[0], stations[1]])
+            };
+            let h = 1e-5;
+            let (a, b) = (after(-h), after(h));
+            for k in [0, 2, 4, 7, 9, 11] {
+                let difference = (b[k] - a[k]) / (2.0 * h);
+                assert!((law[k + 1] - difference).abs() < 1e-7, "{s}, {}: {} {difference}", passing.commanded[k], law[k + 1]);
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_are_exact() {
+        let passing = passing();
+        for s in [12.3, 21.7, 30.45, 36.2] {
+            let at = somewhere(&passing, s);
+            let seeded: [Wide; READ] = std::array::from_fn(|k| {
+                let mut seeded = <Wide as Real>::from_f64(at[k]);
+                seeded.set_derivative(k, 1.0);
+                seeded
+            });
+            let exact = passing.law(&seeded);
+            for k in 0..READ {
+                let moved = |by: f64| {
+                    let mut there = at;
+                    there[k] += by;
+                    passing.law(&there)
+                };
+                let (a, b) = (moved(-1e-5), moved(1e-5));
+                for (row, (a, b)) in a.iter().zip(b).enumerate() {
+                    let (exact, difference) = (SystemScalar::derivative(&exact[row], k), (b - a) / 2e-5);
+                    assert!((exact - difference).abs() < 1e-4 * exact.abs().max(1.0), "{s}, row {row} along {k}: {exact} {difference}");
+                }
+            }
+        }
+    }
+}
