@@ -53,7 +53,9 @@ impl Incline {
                     let why = format!("a slope of {slope:.4} is out of range: it must be between -{STEEPEST} and {STEEPEST}");
                     Err(argument(option, text, "out_of_range", why).with_hint("write `5%` for a slope, `3deg` for an angle").into())
                 }
-                Err(e) => Err(argument(option, text, e.code(), e.to_string()).with_hint("write `5%` for a slope, `3deg` for an angle").into()),
+                Err(e) => {
+                    Err(argument(option, text, e.code(), e.to_string()).with_hint("write `5%` for a slope, `3deg` for an angle").into())
+                }
             }
         };
         Ok(Self {

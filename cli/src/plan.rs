@@ -4,8 +4,8 @@
 //! of the base point, `--lean` the roll, and so on (all of the base point: road level below the rear axle in the design pose).
 
 use crate::Failure;
-use crate::incline::Incline;
 use crate::arguments::{argument, sweep, unknown_name};
+use crate::incline::Incline;
 use analyses::trim::{Role, Trim};
 use clap::Args;
 use mbody::description::finding::Finding;
@@ -290,6 +290,8 @@ pub struct Plan {
     pub easy: fn(&[f64]) -> Vec<f64>,
     /// Largest steps of the goals.
     pub largest_steps: Vec<f64>,
+    /// Angle by which the road rises, rad: a vehicle noses up by it.
+    pub uphill: f64,
 }
 
 impl Plan {
@@ -302,9 +304,11 @@ impl Plan {
 
     /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the plant there.
     pub fn start_from(&mut self, plant: &dyn Plant, pose: &[f64]) {
+        let pitch = format!("{}.pitch", base_name(plant).unwrap_or_default());
         for (unknown, &value) in plant.unknowns().iter().zip(pose) {
             if unknown.kind == UnknownKind::Position && !unknown.cyclic {
-                self.trim.guess(&unknown.signal.name, value);
+                let nose_up = if unknown.signal.name == pitch { self.uphill } else { 0.0 };
+                self.trim.guess(&unknown.signal.name, value - nose_up);
             }
         }
     }
@@ -351,7 +355,7 @@ impl Request {
             }
         }
         self.wishes(&mut trim)?;
-        Ok(Plan { trim, easy: |goals| goals.to_vec(), largest_steps: Vec::new() })
+        Ok(Plan { trim, easy: |goals| goals.to_vec(), largest_steps: Vec::new(), uphill: 0.0 })
     }
 
     /// Steady motion on the road.
@@ -419,7 +423,7 @@ impl Request {
             Drive::Engine => |goals| easy(goals, 0.0),
             Drive::Brakes => |goals| easy(goals, EASY_BRAKING),
         };
-        Ok(Plan { trim, easy, largest_steps })
+        Ok(Plan { trim, easy, largest_steps, uphill: self.incline.grade.atan() })
     }
 
     /// Brake torques are found, the engine is off.

@@ -209,7 +209,9 @@ fn rides_on_inclines_account_for_their_energy() {
 fn slippery_roads_hold_less() {
     let mut agreement = Agreement::on("inclines: friction");
     let vehicle = Vehicle::bundled("gsxr1000");
-    let ridden = |changes: &[String]| Rode::of(&vehicle, read("slippery_patch", changes), Care::USUAL, &["front_tire.friction_use", "rider.path_error"]);
+    let ridden = |changes: &[String]| {
+        Rode::of(&vehicle, read("slippery_patch", changes), Care::USUAL, &["front_tire.friction_use", "rider.path_error"])
+    };
     let (wet, dry) = (ridden(&[]), ridden(&["road.friction.points=[[0 m, 1], [1 m, 1]]".to_owned()]));
     let tenth = relative(0.1).because("loads differ a little where the use is greatest");
     agreement.near("greatest use", wet.peak("front_tire.friction_use"), 2.0 * dry.peak("front_tire.friction_use"), &tenth);

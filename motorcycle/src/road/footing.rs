@@ -22,9 +22,9 @@
 //! Source: kinematics; the plane under a wheel after H. B. Pacejka, *Tire and Vehicle Dynamics*, section 4.2.1 (transition to an effective road plane).
 //! Range: slopes up to 1 or so; roads whose radii are far above those of wheels.
 
+use mbody::assembly::Site;
 use mbody::contact::TangentPlane;
 use mbody::force::{Evaluated, InputDeclared};
-use mbody::assembly::Site;
 use mbody::model::{BodyIndex, Model};
 use mbody::scalar::SystemScalar;
 use mbody::spatial::Vec3;

@@ -50,7 +50,9 @@ mod tests {
         let parameters = "{ nominal_load: 1300, longitudinal: { stiffness: { constant: 20 }, peak: { constant: 1.2 }, shape: 1.5 }, \
             lateral: { cornering_stiffness: { constant: 14 }, camber_stiffness: { constant: 0.9 }, peak: { constant: 1.25 }, \
             cornering_shape: 1.3, camber_shape: 0.7 }, aligning: { pneumatic_trail: 0.025, twisting_moment: 0.015 } }";
-        AnyTireLaw::new(serde_yaml::from_str::<CompactMotorcycleParameters>(parameters).expect("parameters").law().expect("a law"))
+        // through a plain value: in it a choice is a mapping with one key, as in descriptions
+        let value: serde_json::Value = serde_yaml::from_str(parameters).expect("parameters");
+        AnyTireLaw::new(serde_json::from_value::<CompactMotorcycleParameters>(value).expect("parameters").law().expect("a law"))
     }
 
     const SLIP: Slip<f64> = Slip { load: 1500.0, lateral: 0.0, longitudinal: 0.0, camber: 0.0, speed: 20.0 };

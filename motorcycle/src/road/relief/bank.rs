@@ -39,8 +39,7 @@ impl Relief for Banked {
             height: at.value * n,
             first: [at.slope * n, at.value],
             second: [at.curvature * n, at.slope, 0.0],
-            // the third derivative of a step jumps at its ends, and stands beside n only
-            third: [0.0, at.curvature, 0.0, 0.0],
+            third: [at.third * n, at.curvature, 0.0, 0.0],
         }
     }
 }

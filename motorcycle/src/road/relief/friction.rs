@@ -43,7 +43,7 @@ impl Relief for Patches {
         let left = self.left.at(s);
         let Some(right) = self.right.as_ref().map(|right| right.at(s)) else { return [left.value, left.slope, 0.0] };
         // from the right edge to the left one
-        let [_, share, slope, _] = MIDDLE.share(n);
+        let [_, share, slope, ..] = MIDDLE.share(n);
         let mixed = |l: f64, r: f64| r + (l - r) * share;
         [mixed(left.value, right.value), mixed(left.slope, right.slope), (left.value - right.value) * slope]
     }

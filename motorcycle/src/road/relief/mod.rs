@@ -168,20 +168,21 @@ struct Onset {
 const USUAL: Onset = Onset { begin: 10.0, length: 5.0 };
 
 impl Onset {
-    /// Integral from its begin, m, share of the transition that is done, and two derivatives.
-    fn share(self, s: f64) -> [f64; 4] {
+    /// Integral from its begin, m, share of the transition that is done, and three derivatives, of which the last jumps at both ends.
+    fn share(self, s: f64) -> [f64; 5] {
         let q = ((s - self.begin) / self.length).clamp(0.0, 1.0);
         [
             self.length * q * q * q * q * (q * (q - 3.0) + 2.5) + (s - self.begin - self.length).max(0.0),
             q * q * q * (q * (q * 6.0 - 15.0) + 10.0),
             30.0 * q * q * (q - 1.0) * (q - 1.0) / self.length,
             60.0 * q * (2.0 * q - 1.0) * (q - 1.0) / (self.length * self.length),
+            60.0 * (6.0 * q * (q - 1.0) + 1.0) / self.length.powi(3),
         ]
     }
 
     /// Level ground before it, the road behind it.
     fn of(self, z: CurvePoint<f64>, s: f64) -> CurvePoint<f64> {
-        let [_, w, slope, curvature] = self.share(s);
+        let [_, w, slope, curvature, _] = self.share(s);
         CurvePoint {
             value: w * z.value,
             slope: w * z.slope + slope * z.value,

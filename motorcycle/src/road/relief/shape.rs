@@ -52,13 +52,14 @@ pub(super) struct Steps {
     sums: Vec<f64>,
 }
 
-/// The curve at one place: its integral from the first point, itself, two derivatives.
+/// The curve at one place: its integral from the first point, itself, three derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepPoint {
     pub integral: f64,
     pub value: f64,
     pub slope: f64,
     pub curvature: f64,
+    pub third: f64,
 }
 
 impl Steps {
@@ -83,7 +84,7 @@ impl Steps {
     pub fn at(&self, x: f64) -> StepPoint {
         let constant = |k: usize| {
             let value = self.y[k];
-            StepPoint { integral: self.sums[k] + value * (x - self.x[k]), value, slope: 0.0, curvature: 0.0 }
+            StepPoint { integral: self.sums[k] + value * (x - self.x[k]), value, slope: 0.0, curvature: 0.0, third: 0.0 }
         };
         let last = self.x.len() - 1;
         if x <= self.x[0] {
@@ -95,12 +96,13 @@ impl Steps {
         let i = self.x.partition_point(|k| *k <= x) - 1;
         let (h, change) = (self.x[i + 1] - self.x[i], self.y[i + 1] - self.y[i]);
         let step = Onset { begin: self.x[i], length: h };
-        let [integral, value, slope, curvature] = step.share(x);
+        let [integral, value, slope, curvature, third] = step.share(x);
         StepPoint {
             integral: self.sums[i] + self.y[i] * (x - self.x[i]) + change * integral,
             value: self.y[i] + change * value,
             slope: change * slope,
             curvature: change * curvature,
+            third: change * third,
         }
     }
 
