@@ -62,7 +62,8 @@ fn ride(state: &State, relief: Arc<dyn Relief>, times: &[f64], by: By) -> (Simul
     let tracks = Tracks { base, roads: ["front_road", "rear_road"].map(str::to_owned), wheelbase: state.get("wheelbase") };
     let mut closed = ClosedLoop::new(plant, vec![Box::new(Passing::new(tracks, straight_on(1000.0), vec![relief]))]).expect("a loop");
     let mut transient = Transient::new(&closed, times.to_vec());
-    transient.start = Start { y: vec![0.0; closed.unknowns().len()], held: vec![false; closed.unknowns().len()] };
+    let stated = closed.unknowns().iter().map(|k| k.start.unwrap_or(k.design)).collect();
+    transient.start = Start { y: stated, held: vec![false; closed.unknowns().len()] };
     transient.start.y[..y.len()].copy_from_slice(y);
     let names: Vec<&String> = closed.plant().inputs().iter().map(|i| &i.signal.name).collect();
     let value = |name: &String| u[names.iter().position(|n| *n == name).expect("an input")];

@@ -74,6 +74,12 @@ impl<S: SystemScalar> Under<S> {
         Self { plane: TangentPlane { point, normal }, rise, turn: None, friction: None }
     }
 
+    /// Relative rate `k̇_z/k_z` at which distances from the plane shrink while it steepens, 1/s.
+    #[inline]
+    pub fn steepening(&self) -> S {
+        self.turn.map_or_else(S::zero, |turn| turn.dot(self.plane.normal) * self.plane.normal.z)
+    }
+
     /// Vertical speed of the road itself at a point, m/s.
     #[inline]
     pub fn rise_at(&self, point: Vec3<S>) -> S {

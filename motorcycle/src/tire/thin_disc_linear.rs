@@ -1,7 +1,7 @@
 //! Thin disc with linear friction and a hard cut of the load: the tire of the `moto11` benchmark.
 //!
 //! ```text
-//! P = C − R e          N = max(0, k δ + c δ̇),      δ = −(P − P0)·k,   δ̇ = −v·k,   v = v_C + (w − n (n·w)) × (P − C)
+//! P = C − R e          N = max(0, k δ + c δ̇),      δ = −(P − P0)·k,   δ̇ = −v·k + δ k̇_z/k_z,   v = v_C + (w − n (n·w)) × (P − C)
 //! V* = √((v·x)² + V0²)           α = −atan2(v·y, V*)        κ = −(v·x − R Ω')/V*
 //! Fx = Kκ κ N          Fy = (Kα α − Kγ γ) N                  all forces at P, no moments
 //! ```
@@ -49,7 +49,9 @@ impl ThinDiscLinear {
         // without the part of the carrier's rotation about the axle, which the benchmark counts as spin
         let about_axle = wheel.angular_velocity.dot(wheel.axis);
         let v = wheel.velocity_at(arm) + frame.x.scaled(about_axle * radius);
-        let (depth, depth_rate) = (wheel.penetration, -v.dot(frame.k));
+        let depth = wheel.penetration;
+        // the force acts below a road that may steepen
+        let depth_rate = depth * wheel.road.steepening() - v.dot(frame.k);
         let force = self.normal.force(depth, depth_rate);
         let load = if force.value() > 0.0 { force } else { S::zero() };
 
