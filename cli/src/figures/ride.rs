@@ -55,7 +55,8 @@ pub fn figure(history: &History, picture: Picture) -> Result<Figure, Failure> {
     let (what, x, panels) = match picture {
         Picture::Histories => {
             let mut panels = Vec::new();
-            let uneven = column(ROAD.1[1].1).is_ok_and(|(_, z)| z.iter().any(|height| (height - z[0]).abs() > UNEVEN)) && column(ROAD.1[0].1).is_ok();
+            let uneven = column(ROAD.1[1].1).is_ok_and(|(_, z)| z.iter().any(|height| (height - z[0]).abs() > UNEVEN))
+                && column(ROAD.1[0].1).is_ok();
             for (title, curves) in HISTORIES.into_iter().chain(uneven.then_some(ROAD)) {
                 let unit = column(curves[0].1)?.0;
                 let shown = Angles::Degrees.show(unit);

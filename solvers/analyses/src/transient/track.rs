@@ -59,12 +59,12 @@ impl Track for Ramp {
 
 /// A straight line through zero at the start, without end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drift {
+pub struct Drifting {
     /// Change per second.
     pub rate: f64,
 }
 
-impl Track for Drift {
+impl Track for Drifting {
     fn value(&self, time: f64) -> f64 {
         self.rate * time
     }
