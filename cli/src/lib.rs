@@ -11,6 +11,7 @@ pub mod comparison;
 pub mod console;
 pub mod family;
 pub mod figures;
+pub mod incline;
 pub mod interrupt;
 mod lateral;
 pub mod library;

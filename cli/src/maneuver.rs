@@ -79,9 +79,10 @@ pub fn read(name: &str, changes: &[String]) -> Result<Maneuver, Failure> {
 /// The vehicle cannot be ridden, or cannot feel the road.
 pub fn ride(name: &str, maneuver: Maneuver, system: &Arc<System>) -> Result<Ride, Failure> {
     let course = &maneuver.course;
-    let road = maneuver.road.as_ref().map(|relief| road::under_wheels(relief, &course.path, system)).transpose()?;
+    let road = (!maneuver.road.is_empty()).then(|| road::under_wheels(&maneuver.road, &course.path, system)).transpose()?;
     let fastest = course.speed.range().1.max(1.0);
-    let longest_step = maneuver.road.map_or(f64::INFINITY, |relief| relief.shortest() / (STEPS_PER_BUMP * fastest));
+    let shortest = maneuver.road.iter().map(|relief| relief.shortest()).fold(f64::INFINITY, f64::min);
+    let longest_step = shortest / (STEPS_PER_BUMP * fastest);
     let mut controllers: Vec<Box<dyn Controller>> = road.into_iter().map(|road| Box::new(road) as Box<dyn Controller>).collect();
     if !course.torque_pulses.is_empty() && (maneuver.control == Control::None || maneuver.replay.is_some()) {
         let finding = Finding::error("no_rider", "`torque_pulses` are torques of a rider, and `control: none` and `replay` have none");

@@ -5,6 +5,7 @@
 
 use crate::Failure;
 use crate::arguments::{argument, sweep, unknown_name};
+use crate::incline::Incline;
 use analyses::trim::{Role, Trim};
 use clap::Args;
 use mbody::description::finding::Finding;
@@ -13,6 +14,7 @@ use mbody::description::quantity::{Dimension, Dimensioned, QuantityError, parse_
 use mbody::dynamics::System;
 use problem::{Plant, UnknownKind};
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 /// Options that prescribe a steady motion.
 #[derive(Clone, Debug, Default, Args)]
@@ -42,6 +44,12 @@ pub struct SteadyArguments {
     /// Acceleration along the heading; negative: braking
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
     pub acceleration: Option<String>,
+    /// Slope of the road along the path, positive uphill: `5%`, or an angle, `3deg`
+    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true)]
+    pub grade: Option<String>,
+    /// Inclination of the road across the path, positive where it leans to the right: `-8deg` helps a turn to the left; or a slope, `-14%`
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    pub bank: Option<String>,
     /// Share of the front brake in the braking torque, 0 to 1
     #[arg(long, value_name = "SHARE", default_value = "0.7")]
     pub front_brake_share: String,
@@ -111,6 +119,8 @@ pub struct Request {
     pub front_brake_share: f64,
     /// Top speed wanted.
     pub top_speed: bool,
+    /// How the road is inclined.
+    pub incline: Incline,
     /// `SIGNAL`, formula.
     pub given: Vec<(String, String)>,
     /// Signal, guess.
@@ -145,8 +155,9 @@ impl SteadyArguments {
 
     /// Whether a motion on the road is asked for, or something that needs one.
     pub fn moving(&self) -> bool {
-        let turn = [&self.lean, &self.lateral_acceleration, &self.curvature, &self.radius, &self.yaw_rate, &self.steer_torque];
-        self.top_speed || self.speed.is_some() || self.acceleration.is_some() || turn.iter().any(|option| option.is_some())
+        let other = [&self.lean, &self.lateral_acceleration, &self.curvature, &self.radius, &self.yaw_rate, &self.steer_torque];
+        let other = other.into_iter().chain([&self.grade, &self.bank]);
+        self.top_speed || self.speed.is_some() || self.acceleration.is_some() || other.into_iter().any(|option| option.is_some())
     }
 
     /// Reads all values; `given` and `free` are `--given` and `--free` of a steady state.
@@ -183,8 +194,9 @@ impl SteadyArguments {
             let finding = argument("speed", text, "out_of_range", format!("`{slow} m/s` is out of range: it must be greater than 0 m/s"));
             return Err(finding.with_hint("leave `--speed` out for the static pose").into());
         }
-        if speed.is_none() && !self.top_speed && (turn.is_some() || self.acceleration.is_some()) {
-            let finding = Finding::error("missing_speed", "a turn or an acceleration needs a speed");
+        let incline = Incline::read(self.grade.as_deref(), self.bank.as_deref())?;
+        if speed.is_none() && !self.top_speed && (turn.is_some() || self.acceleration.is_some() || incline != Incline::default()) {
+            let finding = Finding::error("missing_speed", "a turn, an acceleration or an inclined road needs a speed");
             return Err(finding.with_hint("add `--speed`, for example `--speed 30`").into());
         }
         if let Some((Turn::Radius, p)) = &turn
@@ -230,6 +242,7 @@ impl SteadyArguments {
             acceleration,
             front_brake_share,
             top_speed: self.top_speed,
+            incline,
             given: given.iter().map(split).collect::<Result<_, _>>()?,
             free: free.iter().map(guessed).collect::<Result<_, _>>()?,
         })
@@ -277,6 +290,8 @@ pub struct Plan {
     pub easy: fn(&[f64]) -> Vec<f64>,
     /// Largest steps of the goals.
     pub largest_steps: Vec<f64>,
+    /// Angle by which the road rises, rad: a vehicle noses up by it.
+    pub uphill: f64,
 }
 
 impl Plan {
@@ -289,9 +304,11 @@ impl Plan {
 
     /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the plant there.
     pub fn start_from(&mut self, plant: &dyn Plant, pose: &[f64]) {
+        let pitch = format!("{}.pitch", base_name(plant).unwrap_or_default());
         for (unknown, &value) in plant.unknowns().iter().zip(pose) {
             if unknown.kind == UnknownKind::Position && !unknown.cyclic {
-                self.trim.guess(&unknown.signal.name, value);
+                let nose_up = if unknown.signal.name == pitch { self.uphill } else { 0.0 };
+                self.trim.guess(&unknown.signal.name, value - nose_up);
             }
         }
     }
@@ -338,13 +355,13 @@ impl Request {
             }
         }
         self.wishes(&mut trim)?;
-        Ok(Plan { trim, easy: |goals| goals.to_vec(), largest_steps: Vec::new() })
+        Ok(Plan { trim, easy: |goals| goals.to_vec(), largest_steps: Vec::new(), uphill: 0.0 })
     }
 
     /// Steady motion on the road.
     ///
     /// Goals in this order: forward speed (unless top speed is wanted), turn, acceleration.
-    pub fn moving(&self, plant: &dyn Plant, system: &System, drive: Drive, speed: f64) -> Result<Plan, Failure> {
+    pub fn moving(&self, plant: &dyn Plant, system: &Arc<System>, drive: Drive, speed: f64) -> Result<Plan, Failure> {
         let Some(base) = base_name(plant) else {
             let finding = Finding::error("no_vehicle_base", "this model has no vehicle base, so it has no speed along a road");
             return Err(finding.with_hint("without `--speed` its static pose is found; a vehicle has `base: vehicle_base`").into());
@@ -397,13 +414,16 @@ impl Request {
             trim.accelerate(&v, 0.0)?;
             largest_steps.push(3.0);
         }
+        if self.incline != Incline::default() {
+            self.incline.lay(&mut trim, system, &base, self.acceleration.is_some())?;
+        }
         self.wishes(&mut trim)?;
         // brakes that push against the drag of a fast vehicle would ask too much of the front tire
         let easy: fn(&[f64]) -> Vec<f64> = match drive {
             Drive::Engine => |goals| easy(goals, 0.0),
             Drive::Brakes => |goals| easy(goals, EASY_BRAKING),
         };
-        Ok(Plan { trim, easy, largest_steps })
+        Ok(Plan { trim, easy, largest_steps, uphill: self.incline.grade.atan() })
     }
 
     /// Brake torques are found, the engine is off.

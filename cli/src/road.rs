@@ -1,36 +1,59 @@
 //! Puts the road of a maneuver under the wheels of a vehicle.
 
 use crate::Failure;
+use crate::incline::Incline;
 use crate::plan::base_name;
-use crate::responses::ROADS;
 use mbody::description::finding::Finding;
 use mbody::dynamics::{System, TreePlant};
 use motorcycle::maneuver::Path;
+use motorcycle::road::footing::QUANTITIES;
 use motorcycle::road::{Passing, Relief, Tracks};
-use problem::{At, Dae, Outputs};
+use problem::{At, Dae, Outputs, Plant};
 use std::sync::Arc;
+
+/// Names of the roads under the front and under the rear wheel.
+pub const ROADS: [&str; 2] = ["front_road", "rear_road"];
 
 /// A road under both wheels of a vehicle.
 ///
 /// # Errors
 /// It has no vehicle base, its tires know of no road, or it has no wheelbase.
-pub fn under_wheels(relief: &Arc<dyn Relief>, path: &Path, system: &Arc<System>) -> Result<Passing, Failure> {
+pub fn under_wheels(reliefs: &[Arc<dyn Relief>], path: &Path, system: &Arc<System>) -> Result<Passing, Failure> {
     let mut plant = TreePlant::new(system.clone());
     let none = || Finding::error("no_vehicle_base", "this model has no vehicle base, so no road passes under it");
     let base = base_name(&plant).ok_or_else(none)?;
-    let heights = [ROADS[0].to_owned(), format!("{}_rate", ROADS[0]), ROADS[1].to_owned(), format!("{}_rate", ROADS[1])];
-    if let Some(missing) = heights.iter().find(|name| !plant.inputs().iter().any(|i| i.signal.name == **name)) {
-        let finding = Finding::error("missing_input", format!("this model has no input `{missing}`, so its wheels feel no uneven road"));
-        return Err(finding
-            .with_hint("elements `tire` with `road: front_road` and `road: rear_road` have it; `road: { flat: {} }` is a level road")
-            .into());
-    }
-    let wheelbase = wheelbase(&mut plant).ok_or_else(|| {
+    felt(&plant, "it feels no uneven road", "; `road: { flat: {} }` is a level road")?;
+    let wheelbase = known_wheelbase(&mut plant)?;
+    let base = ["x", "y", "yaw", "forward_speed", "lateral_speed", "yaw_rate"].map(|name| format!("{base}.{name}"));
+    Ok(Passing::new(Tracks { base, roads: ROADS.map(str::to_owned), wheelbase }, path.clone(), reliefs.to_vec()))
+}
+
+/// How a road is inclined where its path begins.
+pub fn at_start(reliefs: &[Arc<dyn Relief>]) -> Incline {
+    let shapes = reliefs.iter().filter(|relief| relief.tilts()).map(|relief| relief.shape(0.0, 0.0).first);
+    shapes.fold(Incline::default(), |sum, [along, across]| Incline { grade: sum.grade + along, cross_slope: sum.cross_slope + across })
+}
+
+/// Refuses models whose tires know of no road, with what follows and a further hint.
+///
+/// # Errors
+/// An input is missing.
+pub fn felt(plant: &dyn Plant, so: &str, hint: &str) -> Result<(), Failure> {
+    let names = ROADS.iter().flat_map(|road| QUANTITIES.map(|quantity| format!("{road}.{quantity}")));
+    let Some(missing) = names.into_iter().find(|name| !plant.inputs().iter().any(|i| i.signal.name == *name)) else { return Ok(()) };
+    let finding = Finding::error("missing_input", format!("this model has no input `{missing}`, so {so}"));
+    Err(finding.with_hint(format!("elements `tire` with `road: front_road` and `road: rear_road` have it{hint}")).into())
+}
+
+/// Distance of the wheels, m.
+///
+/// # Errors
+/// The model has no such signal.
+pub fn known_wheelbase(plant: &mut TreePlant) -> Result<f64, Failure> {
+    wheelbase(plant).ok_or_else(|| {
         let finding = Finding::error("missing_output", "this model has no signal `wheelbase`, so it is not known where its front wheel is");
-        finding.with_hint("an element of the kind `single_track` has it")
-    })?;
-    let base = ["x", "y", "yaw", "forward_speed", "lateral_speed"].map(|name| format!("{base}.{name}"));
-    Ok(Passing::new(Tracks { base, heights, wheelbase }, path.clone(), relief.clone()))
+        finding.with_hint("an element of the kind `single_track` has it").into()
+    })
 }
 
 /// Distance of the contact points in the design pose, m.

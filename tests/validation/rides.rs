@@ -76,7 +76,10 @@ fn paths_are_followed() {
     }
     let circle: Changes = |_, x| vec![("path.1.u_turn.radius", 6.0 * x), ("path.1.u_turn.transition", 6.0 * x)];
     rides.extend([3.0, 5.0, 8.0].map(|speed| ("u_turn", gentle("u_turn", speed, circle))));
-    rides.extend(["straight", "acceleration", "braking_straight", "braking_in_curve", "steering_impulse"].map(|name| (name, Vec::new())));
+    rides.extend(
+        ["straight", "acceleration", "braking_straight", "braking_in_curve", "steering_impulse", "banked_circle", "hill", "slippery_patch"]
+            .map(|name| (name, Vec::new())),
+    );
     for model in ["gsxr1000", "ref11"] {
         let vehicle = Vehicle::bundled(model);
         for (name, changes) in &rides {

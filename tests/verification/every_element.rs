@@ -161,13 +161,14 @@ fn by_moving_inputs(motion: &mut Motion) -> f64 {
     let rates: Vec<Option<usize>> = motion.plant.inputs().iter().map(|i| i.rate).collect();
     let mut sum = 0.0;
     for (i, rate) in rates.into_iter().enumerate().filter_map(|(i, rate)| rate.map(|rate| (i, rate))) {
-        // springs store the square of the height: central differences of any step are exact
+        // springs store the square of the height, and of slopes a smooth function: differences of the sixth order
         let (kept, step) = (motion.u[i], 1e-3);
         let mut stored = |by: f64| {
             motion.u[i] = kept + by;
             motion.plant.account_at(problem::At { time: 0.0, y: &motion.y, yd: &motion.yd, u: &motion.u }).elements.stored
         };
-        let slope = (stored(step) - stored(-step)) / (2.0 * step);
+        let mut slope = |factor: f64| (stored(factor * step) - stored(-factor * step)) / (2.0 * factor * step);
+        let slope = (64.0 * slope(1.0) - 20.0 * slope(2.0) + slope(4.0)) / 45.0;
         motion.u[i] = kept;
         sum += slope * motion.u[rate];
     }

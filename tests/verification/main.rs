@@ -6,6 +6,7 @@ mod bundled;
 mod every_constraint;
 mod every_element;
 mod every_joint;
+mod inclines;
 mod invariance;
 mod linear;
 mod mechanisms;
@@ -38,6 +39,7 @@ fn the_table_of_evidence_is_up_to_date() {
             sensitivity::EVIDENCE,
             ride::EVIDENCE,
             roads::EVIDENCE,
+            inclines::EVIDENCE,
             two_loops::EVIDENCE,
             rider::EVIDENCE,
         ],

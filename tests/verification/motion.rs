@@ -98,7 +98,7 @@ impl Motion {
     pub fn of(example: &Example) -> Self {
         let plant = TreePlant::new(example.system.clone());
         let y: Vec<f64> = plant.unknowns().iter().map(|u| u.design).collect();
-        let (yd, u) = (vec![0.0; y.len()], vec![0.0; plant.inputs().len()]);
+        let (yd, u) = (vec![0.0; y.len()], plant.inputs().iter().map(|i| i.default).collect());
         Self { plant, bare: TreePlant::new(example.bare.clone()), y, yd, u }
     }
 

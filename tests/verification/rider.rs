@@ -94,7 +94,7 @@ impl Riding {
         let mut y: Vec<f64> = closed.unknowns().iter().map(|k| k.start.unwrap_or(k.design)).collect();
         let (of_plant, _) = state.arguments();
         y[..of_plant.len()].copy_from_slice(of_plant);
-        let u = vec![0.0; closed.inputs().len()];
+        let u = closed.inputs().iter().map(|i| i.default).collect();
         let mut riding = Self { closed, yd: vec![0.0; y.len()], y, u, yaw_rate, regulator };
         riding.put("rider.station", station);
         // no acceleration is demanded

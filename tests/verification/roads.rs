@@ -58,12 +58,12 @@ fn straight_on(length: f64) -> Path {
 fn ride(state: &State, relief: Arc<dyn Relief>, times: &[f64], by: By) -> (Simulation, ClosedLoop<TreePlant>) {
     let plant = TreePlant::in_formulation(state.system.clone(), Formulation::Ggl);
     let (y, u) = state.arguments();
-    let base = ["x", "y", "yaw", "forward_speed", "lateral_speed"].map(|name| format!("chassis.{name}"));
-    let heights = ["front_road.height", "front_road.height_rate", "rear_road.height", "rear_road.height_rate"].map(str::to_owned);
-    let tracks = Tracks { base, heights, wheelbase: state.get("wheelbase") };
-    let mut closed = ClosedLoop::new(plant, vec![Box::new(Passing::new(tracks, straight_on(1000.0), relief))]).expect("a loop");
+    let base = ["x", "y", "yaw", "forward_speed", "lateral_speed", "yaw_rate"].map(|name| format!("chassis.{name}"));
+    let tracks = Tracks { base, roads: ["front_road", "rear_road"].map(str::to_owned), wheelbase: state.get("wheelbase") };
+    let mut closed = ClosedLoop::new(plant, vec![Box::new(Passing::new(tracks, straight_on(1000.0), vec![relief]))]).expect("a loop");
     let mut transient = Transient::new(&closed, times.to_vec());
-    transient.start = Start { y: vec![0.0; closed.unknowns().len()], held: vec![false; closed.unknowns().len()] };
+    let stated = closed.unknowns().iter().map(|k| k.start.unwrap_or(k.design)).collect();
+    transient.start = Start { y: stated, held: vec![false; closed.unknowns().len()] };
     transient.start.y[..y.len()].copy_from_slice(y);
     let names: Vec<&String> = closed.plant().inputs().iter().map(|i| &i.signal.name).collect();
     let value = |name: &String| u[names.iter().position(|n| *n == name).expect("an input")];
@@ -95,7 +95,7 @@ fn small_bumps_are_answered_linearly() {
         let wheelbase = state.get("wheelbase");
         // coefficients of the bump under the front wheel, by the trapezoidal rule, which is exact for what is periodic and smooth
         let samples = 40_000;
-        let at = |k: usize| bump.at(wheelbase + speed * period * k as f64 / samples as f64).value;
+        let at = |k: usize| bump.shape(wheelbase + speed * period * k as f64 / samples as f64, 0.0).height;
         let heights: Vec<(usize, f64)> = (0..samples).map(|k| (k, at(k))).filter(|(_, z)| *z != 0.0).collect();
         let mut sums = vec![0.0; times.len()];
         for n in 1..=HARMONICS {

@@ -85,7 +85,7 @@ fn methods_agree() {
 }
 
 /// Quantities that change their sign in the mirror, by the last part of their names; all others keep it.
-const MIRRORED: [&str; 22] = [
+const MIRRORED: [&str; 24] = [
     "y",
     "yaw",
     "roll",
@@ -108,6 +108,8 @@ const MIRRORED: [&str; 22] = [
     "steer.angle",
     "steer.rate",
     "steer.torque",
+    "cross_slope",
+    "cross_slope_rate",
 ];
 
 fn mirrored(signal: &str) -> bool {
@@ -229,7 +231,7 @@ fn the_torque_search_finds_every_lean() {
 
 /// Whether a signal of a motorcycle belongs to motion out of its plane of symmetry.
 fn lateral(signal: &str) -> bool {
-    ["lateral", "roll", "yaw", "steer.", ".y"].iter().any(|part| signal.contains(part)) && !signal.contains("rolling")
+    ["lateral", "roll", "yaw", "steer.", ".y", "cross_slope"].iter().any(|part| signal.contains(part)) && !signal.contains("rolling")
 }
 
 #[test]

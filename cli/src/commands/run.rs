@@ -7,7 +7,7 @@ use crate::figures::ride::{self, Picture};
 use crate::output::{Angles, History, Results};
 use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::{Context, Exit, Failure, interrupt, maneuver, model, motion, results};
+use crate::{Context, Exit, Failure, interrupt, maneuver, model, motion, results, road};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Severity;
 use mbody::description::quantity::dimension::{Frequency, Number, Time};
@@ -117,12 +117,16 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let ridden = maneuver.as_ref().is_some_and(|m| m.control == Control::Rider);
     let picture = arguments.figure.or((ridden && chosen).then_some(Picture::Histories));
     let scene = arguments.animate.is_some().then(|| Scene::of(&loaded.assembled));
+    let mut steady = arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?;
+    if let (Some(steady), Some(maneuver)) = (&mut steady, &maneuver) {
+        steady.incline = road::at_start(&maneuver.road);
+    }
     let request = motion::Request {
         times,
         relative_tolerance,
         backend: arguments.backend,
         formulation: arguments.formulation,
-        steady: arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?,
+        steady,
         given: arguments.given,
         signals: arguments.signals,
         until: arguments.until.iter().cloned().chain(until).collect(),

@@ -9,7 +9,7 @@ use mbody::description::finding::Finding;
 /// What is drawn of a ride.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Picture {
-    /// Speed, lean, steering torque and offset from the path over time
+    /// Speed, lean, steering torque and offset from the path over time, and the height of the road where it is not flat
     #[default]
     Histories,
     /// The path asked for and the path ridden, from above
@@ -27,6 +27,11 @@ const HISTORIES: Panels = [
     ("steer torque", &[("", "steer.torque")]),
     ("path error", &[("", "rider.path_error")]),
 ];
+
+/// The road where the tires touch it: drawn where it is not flat.
+const ROAD: (&str, &[(&str, &str)]) = ("road height", &[("front", "front_tire.contact_z"), ("rear", "rear_tire.contact_z")]);
+/// Difference of heights that is drawn, m.
+const UNEVEN: f64 = 1e-4;
 
 /// Draws a ride.
 ///
@@ -50,7 +55,9 @@ pub fn figure(history: &History, picture: Picture) -> Result<Figure, Failure> {
     let (what, x, panels) = match picture {
         Picture::Histories => {
             let mut panels = Vec::new();
-            for (title, curves) in HISTORIES {
+            let uneven = column(ROAD.1[1].1).is_ok_and(|(_, z)| z.iter().any(|height| (height - z[0]).abs() > UNEVEN))
+                && column(ROAD.1[0].1).is_ok();
+            for (title, curves) in HISTORIES.into_iter().chain(uneven.then_some(ROAD)) {
                 let unit = column(curves[0].1)?.0;
                 let shown = Angles::Degrees.show(unit);
                 let one = |(name, signal): &(&str, &str)| Ok(curve(name, &history.time, column(signal)?.1, shown.factor));

@@ -3,7 +3,7 @@
 use crate::arguments::{argument, unknown_name};
 use crate::output::Given;
 use crate::{Failure, plan, steady};
-use analyses::transient::{Driven, Start};
+use analyses::transient::{Drifting, Driven, Start};
 use analyses::{Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::description::quantity::{Dimension, Dimensioned, dimension::Number, parse_quantity};
@@ -56,7 +56,15 @@ impl Beginning {
         start.held.fill(false);
         start.y[..n].copy_from_slice(&point.values[..n]);
         let value = |name: &str| system.inputs().iter().position(|i| i.signal.name == name).map_or(0.0, |k| point.values[n + k]);
-        let inputs = Driven::new(plant.inputs().iter().map(|i| value(&i.signal.name)).collect());
+        let mut inputs = Driven::new(plant.inputs().iter().map(|i| value(&i.signal.name)).collect());
+        // what has a rate in the steady state goes on with it: the height of a road uphill
+        for (k, input) in plant.inputs().iter().enumerate() {
+            let rate = input.rate.map(|at| (at, value(&plant.inputs()[at].signal.name)));
+            if let Some((at, rate)) = rate.filter(|(_, rate)| *rate != 0.0) {
+                inputs.base_mut()[at] = 0.0;
+                inputs.add(plant, k, Box::new(Drifting { rate }));
+            }
+        }
         Ok(Self { start, given: Vec::new(), inputs, told: found.given.into_iter().zip(point.given.clone()).collect() })
     }
 

@@ -106,8 +106,8 @@ pub struct Maneuver {
     pub about: String,
     /// Path, speed and disturbances.
     pub course: Course,
-    /// The road along the path; none where it is level.
-    pub road: Option<Arc<dyn Relief>>,
+    /// The road along the path, one or more kinds; none where it is level.
+    pub road: Vec<Arc<dyn Relief>>,
     /// Inputs over time that nobody commands.
     pub inputs: Vec<Moving>,
     /// Who rides.
@@ -205,8 +205,8 @@ struct ManeuverDescription {
     speed_along_path: Option<Vec<(NonNegativeQuantity<Length>, NonNegativeQuantity<SpeedDimension>)>>,
     /// The path: sections one after the other, each one kind with its parameters.
     path: Vec<Value>,
-    /// The road along the path, one kind with its parameters; level where left out.
-    road: Option<Value>,
+    /// The road along the path: one or more kinds with their parameters, whose heights add up and whose frictions multiply; level where left out.
+    road: Option<serde_json::Map<String, Value>>,
     /// Torques at the bar beside those of the rider.
     torque_pulses: Option<Vec<PulseDescription>>,
     /// Inputs over time, each added to the value that it has at the start: wind, and what no rider commands.
@@ -239,13 +239,18 @@ pub fn schema() -> Value {
         })
     };
     let sections: Vec<Value> = section::KINDS.iter().map(|k| one(k.about, k.name, (k.schema)(&mut generator))).collect();
-    let roads: Vec<Value> = relief::KINDS.iter().map(|k| one(k.about, k.name, (k.schema)(&mut generator))).collect();
+    let road = |k: &relief::ReliefKind, mut parameters: Value| {
+        parameters["description"] = json!(k.about);
+        (k.name.to_owned(), parameters)
+    };
+    let roads: serde_json::Map<String, Value> = relief::KINDS.iter().map(|k| road(k, (k.schema)(&mut generator).to_value())).collect();
     let mut root = generator.root_schema_for::<ManeuverDescription>().to_value();
     root["title"] = json!("FastBike maneuver");
     root["properties"]["path"]["items"] = json!({ "oneOf": sections });
     root["properties"]["path"]["minItems"] = json!(1);
     let about = root["properties"]["road"]["description"].clone();
-    root["properties"]["road"] = json!({ "description": about, "oneOf": roads });
+    root["properties"]["road"] =
+        json!({ "description": about, "type": "object", "properties": roads, "additionalProperties": false, "minProperties": 1 });
     root
 }
 
@@ -300,11 +305,11 @@ pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], f
             all(findings, &format!("path.{k}.{name}"), &wrong);
         }
     }
-    let mut road = None;
-    let of_road = written.road.as_ref().and_then(single);
-    if let Some((kind, value)) = of_road.and_then(|(name, value)| Some((relief::KINDS.iter().find(|k| k.name == name)?, value))) {
+    let mut road = Vec::new();
+    for (name, value) in written.road.iter().flatten() {
+        let Some(kind) = relief::KINDS.iter().find(|k| k.name == *name) else { continue };
         match (kind.make)(value, library) {
-            Ok(made) => road = made,
+            Ok(made) => road.extend(made.map(|relief| (kind.name, relief))),
             Err(wrong) => all(findings, &format!("road.{}", kind.name), &wrong),
         }
     }
@@ -328,13 +333,20 @@ pub fn read(file: &str, library: &dyn Library, overrides: &[(String, String)], f
     if findings.has_errors() {
         return None;
     }
+    let path = layout.path();
+    for (name, relief) in &road {
+        if let Some(wrong) = relief.leaves(&path) {
+            all(findings, &format!("road.{name}"), &wrong.into());
+            return None;
+        }
+    }
     let pulse = |p: &PulseDescription| Pulse { peak: p.peak.si(), start: p.start.si(), duration: p.duration.si() };
     let torque_pulses = written.torque_pulses.iter().flatten().map(pulse).collect();
     Some(Maneuver {
         name: written.name,
         about: written.about.unwrap_or_default(),
-        course: Course { path: layout.path(), speed: speed?, torque_pulses },
-        road,
+        course: Course { path, speed: speed?, torque_pulses },
+        road: road.into_iter().map(|(_, relief)| relief).collect(),
         inputs,
         control: written.control,
         rider: written.rider,

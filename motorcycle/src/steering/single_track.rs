@@ -10,17 +10,19 @@
 //! | V_x, r | m/s, rad/s | speed of the base point along the heading, yaw rate, positive to the left |
 //! | a_y, κ | m/s², 1/m | lateral acceleration and curvature, positive in a turn to the left |
 //! | τ, τ_n | N m | torque of the rider; the same, positive when it acts in the sense of the yaw rate |
-//! | P_f, P_r | m | contact points of undeformed tires with the level road |
-//! | O, s, G | m | point of the steering axis, its upward direction, its intersection with the level road |
+//! | P_f, P_r | m | contact points of undeformed tires with the road under each of them |
+//! | O, s, G | m | point of the steering axis, its upward direction, its intersection with the road under the front wheel |
 //! | x, n | | forward along the contact, axis of the front wheel to the left |
 //! | κ₀, y_r | 1/m | kinematic curvature: that of the path of P_r if no wheel slipped sideways, positive to the left; y_r across the contact at the rear |
 //! | V₀, r₀ | | 0.001 m/s, 0.001 rad/s: keep the signals differentiable at rest and in straight running |
 //!
-//! Source: V. Cossalter, *Motorcycle Dynamics* (2006), chapters 1, 4 and 7 (definitions). Range: level road; lean as in `mbody`'s contact geometry.
+//! Source: V. Cossalter, *Motorcycle Dynamics* (2006), chapters 1, 4 and 7 (definitions). Range: a road that inputs tell, level where no road is named; lean as in `mbody`'s contact geometry.
 
+use crate::road::Footing;
+use crate::road::footing::QUANTITIES;
 use crate::signal::turning_axis;
 use mbody::assembly::{ElementDescription, Site};
-use mbody::contact::{Contact, Plane, Profile, Surface};
+use mbody::contact::{Contact, Plane, Profile, Surface, TangentPlane};
 use mbody::description::quantity::dimension::Length;
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
 use mbody::force::{Declared, Effort, Energy, Evaluated, ForceLaw, InputDeclared, OutputDeclared};
@@ -44,13 +46,24 @@ pub struct Wheel {
     pub axis: Vec3<f64>,
     /// Shape of the tire.
     pub profile: Profile,
+    /// The road as inputs tell it; none: the plane z = 0.
+    pub road: Option<Footing>,
 }
 
 impl Wheel {
-    fn contact<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> (Contact<S>, Vec3<S>) {
+    /// Contact, spin axis and road; `first` is the place of the road among the inputs.
+    fn contact<S: SystemScalar>(&self, at: &Evaluated<'_, S>, first: usize) -> (Contact<S>, Vec3<S>, TangentPlane<S>) {
         let X = at.X_WB(self.body);
         let axis = X.R.times_const(self.axis);
-        (Contact::with_plane(&self.profile, X.p, axis, &Plane::LEVEL.tangent_plane(X.p.x, X.p.y)), axis)
+        let plane = match &self.road {
+            Some(road) => road.under(at, first).plane,
+            None => Plane::LEVEL.tangent_plane(X.p.x, X.p.y),
+        };
+        (Contact::with_plane(&self.profile, X.p, axis, &plane), axis, plane)
+    }
+
+    fn inputs(&self) -> Vec<InputDeclared> {
+        self.road.as_ref().map(Footing::inputs).unwrap_or_default()
     }
 }
 
@@ -85,7 +98,8 @@ impl ForceLaw for SingleTrack {
             output("normal_trail", "m", "distance of the front contact point from the steering axis, positive behind it"),
             output("kinematic_curvature", "1/m", "curvature of the rear contact's path if no wheel slipped sideways, positive to the left"),
         ];
-        Declared { inputs: vec![torque], outputs, ..Default::default() }
+        let inputs = [torque].into_iter().chain(self.front.inputs()).chain(self.rear.inputs()).collect();
+        Declared { inputs, outputs, ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {
         let (V, r) = (at.speeds(self.base)[0], at.speeds(self.base)[2]);
@@ -93,11 +107,12 @@ impl ForceLaw for SingleTrack {
         out.output(1, r / sabs(V, SPEED_ROUNDING));
         out.output(2, at.input(0) * r / sabs(r, YAW_RATE_ROUNDING));
 
-        let ((front, axle), (rear, _)) = (self.front.contact(at), self.rear.contact(at));
+        let behind = 1 + if self.front.road.is_some() { QUANTITIES.len() } else { 0 };
+        let ((front, axle, road), (rear, ..)) = (self.front.contact(at, 1), self.rear.contact(at, behind));
         out.output(3, (front.point - rear.point).norm());
         let X = at.X_WB(self.steer);
         let s = X.R.times_const(self.steer_axis);
-        let on_road = X.p - s.scaled(X.p.z / s.z);
+        let on_road = X.p - s.scaled((X.p - road.point).dot(road.normal) / s.dot(road.normal));
         out.output(4, (on_road - front.point).dot(front.frame.x));
         out.output(5, (front.point - X.p).cross(s).dot(axle));
         // the axles, projected onto the road, meet at P_r + y_r/κ₀
@@ -118,6 +133,8 @@ pub struct WheelDescription {
     radius: PositiveQuantity<Length>,
     /// Radius of the cross-section of the tire; zero, a sharp edge, where left out.
     crown_radius: Option<NonNegativeQuantity<Length>>,
+    /// Name of the road under this wheel, as its tire has it; the level z = 0 where left out.
+    road: Option<String>,
 }
 
 /// Signals of a single-track vehicle as a whole.
@@ -140,7 +157,10 @@ impl WheelDescription {
     fn wheel(&self, key: &str, site: &mut Site<'_>) -> Option<Wheel> {
         let body = site.joint_with(&format!("{key}.joint"), &self.joint, "rad")?;
         match Profile::torus(self.radius.si(), self.crown_radius.map_or(0.0, Quantity::si)) {
-            Ok(profile) => Some(Wheel { body, axis: turning_axis(site.model(), body), profile }),
+            Ok(profile) => {
+                let road = self.road.as_ref().map(|road| Footing::new(site.model(), body, road.clone()).below(site, body));
+                Some(Wheel { body, axis: turning_axis(site.model(), body), profile, road })
+            }
             Err(error) => {
                 site.refuse(&format!("{key}.crown_radius"), "invalid_profile", error.to_string());
                 None
@@ -152,8 +172,8 @@ impl WheelDescription {
 impl ElementDescription for SingleTrackDescription {
     const KIND: &'static str = "single_track";
     const ABOUT: &'static str = "signals of a single-track vehicle: lateral_acceleration, curvature, steer.torque_normalized, wheelbase, trail, normal_trail, kinematic_curvature";
-    const EXAMPLE: &'static str = "{ base: chassis, steer: steer, front_wheel: { joint: front_wheel, radius: 0.3 m, crown_radius: 60 mm }, \
-        rear_wheel: { joint: rear_wheel, radius: 0.32 m, crown_radius: 95 mm } }";
+    const EXAMPLE: &'static str = "{ base: chassis, steer: steer, front_wheel: { joint: front_wheel, radius: 0.3 m, crown_radius: 60 mm, road: front_road }, \
+        rear_wheel: { joint: rear_wheel, radius: 0.32 m, crown_radius: 95 mm, road: rear_road } }";
     const TREE: &'static str = crate::EXAMPLE_TREE;
     type Law = SingleTrack;
     fn assemble(self, site: &mut Site<'_>) -> Option<SingleTrack> {
@@ -185,7 +205,7 @@ mod tests {
     fn observer() -> Bench {
         let bodies = tree().1;
         let left = Vec3::new(0.0, 1.0, 0.0);
-        let wheel = |body, radius, crown| Wheel { body, axis: left, profile: Profile::torus(radius, crown).unwrap() };
+        let wheel = |body, radius, crown| Wheel { body, axis: left, profile: Profile::torus(radius, crown).unwrap(), road: None };
         let law = SingleTrack {
             base: bodies.chassis,
             steer: bodies.front_upper,

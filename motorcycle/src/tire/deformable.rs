@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! d = [S(γ) − (C − P0)·k − λ sin γ]/cos γ            P = C − (a − d) e − (b − λ) n
-//! ḋ = −(v_P·k − ż + λ̇ sin γ)/cos γ
+//! ḋ = −(v_P·k + λ̇ sin γ)/cos γ
 //! Fr = kr d + cr ḋ        Fn = kl λ + cl λ̇           N = Fr cos γ + Fn sin γ
 //! V_sx = v_P·x − re Ω + λ̇x                            re = a − η d
 //! V_sy = v_P·y + λ̇ cos γ − ḋ sin γ                    κ = −V_sx/V*,  tan α = −V_sy/V*,  V* = √((v_P·x)² + V0²)
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! λ, λx displacement of the patch against the rim, along the axle to the left and forward, m; d radial compression, m; S, a, b
-//! support and point of the cross-section, m; C center of the wheel; v_P velocity of the carrier, without the spin Ω, at P, m/s; ż
-//! speed of the road, m/s; F forces of the carcass on the rim, N; k N/m, c N s/m; η share of d in the effective radius re.
+//! support and point of the cross-section, m; C center of the wheel; v_P velocity of the carrier against the
+//! road, without the spin Ω, at P, m/s; F forces of the carcass on the rim, N; k N/m, c N s/m; η share of d in the effective radius re.
 //! Both rows are implicit in λ̇, λ̇x. For small slip upright they make a lag over the length `σ = C_α/kl`. Lean and side force
 //! load the springs by themselves: in a balanced turn λ stays small and d is that of the force along the wheel plane. A tire that can lift
 //! has `b(δ) Fr sin γ` in its row: in the air λ returns to zero in the time cl/kl.
@@ -21,8 +21,9 @@
 
 use super::carcass::Elastic;
 use super::element::Tire;
-use super::law::{Slip, TireLaw};
+use super::law::Slip;
 use super::patch::Patch;
+use super::similarity;
 use super::wheel::Rolling;
 use mbody::force::{Evaluated, StateDeclared};
 use mbody::scalar::SystemScalar;
@@ -78,7 +79,7 @@ impl Deformable {
         let lever = meridian.a - radial;
         let arm = -(frame.e.scaled(lever) + wheel.axis.scaled(meridian.b - lateral));
         let v = wheel.velocity_at(arm);
-        let radial_rate = -(v.dot(frame.k) - wheel.height_rate + lateral_rate * sin) * per_cos;
+        let radial_rate = -(v.dot(frame.k) + lateral_rate * sin) * per_cos;
 
         // forces of the carcass, along rim and road
         let (along_radius, along_axle) = (self.radial.force(radial, radial_rate), self.lateral.force(lateral, lateral_rate));
@@ -103,7 +104,7 @@ impl Deformable {
             camber: frame.camber,
             speed: reference,
         };
-        let friction = tire.law.friction(&slip);
+        let friction = similarity::friction(&tire.law, &slip, wheel.road.friction);
 
         // rows and energy
         let mut rows = [elastic_side_force - friction.lateral, S::zero()];

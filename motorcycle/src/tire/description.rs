@@ -51,7 +51,7 @@ pub struct TireDescription {
     effective_radius_fraction: Option<Quantity<Number, Fraction>>,
     /// Speed below which slips are rounded; 0.1 m/s where left out.
     low_speed: Option<PositiveQuantity<Speed>>,
-    /// Name of the road under this wheel: inputs `<road>.height` and `<road>.height_rate`; `road` where left out, which all such wheels share.
+    /// Name of the road under this wheel: inputs `<road>.height`, `<road>.grade`, `<road>.cross_slope`, their rates, and `<road>.friction`; `road` where left out, which all such wheels share.
     /// A rigid tire has none.
     road: Option<String>,
 }
@@ -236,13 +236,14 @@ impl TireDescription {
 /// The wheel carried by a joint, refused where the joint does not turn to the left.
 pub(super) fn wheel(site: &mut Site<'_>, joint: &str, profile: Profile, road: Option<String>) -> Option<Wheel> {
     let body = site.joint_with("wheel", joint, "rad")?;
-    let Some(wheel) = Wheel::new(site.model(), body, profile, road.unwrap_or_else(|| "road".into())) else {
+    let Some(mut wheel) = Wheel::new(site.model(), body, profile, road.unwrap_or_else(|| "road".into())) else {
         site.refuse("wheel", "wrong_joint", format!("joint `{joint}` does not turn about a fixed axis, as a wheel does"));
         return None;
     };
     let left = (site.design_pose(wheel.carrier).R * wheel.axis).y;
     // a wheel may be toed in or cambered, but not lie across
     if left > 0.5 {
+        wheel.road = wheel.road.map(|road| road.below(site, body));
         return Some(wheel);
     }
     let points = if left < -0.5 { "right" } else { "neither left nor right" };

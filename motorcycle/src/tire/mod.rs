@@ -29,6 +29,7 @@ pub mod wheel;
 mod conformity;
 mod patch;
 mod shape;
+pub mod similarity;
 
 pub use carcass::{Elastic, RelaxationLength, RoadContact};
 pub use deformable::Deformable;

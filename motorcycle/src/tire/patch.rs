@@ -2,12 +2,13 @@
 //!
 //! ```text
 //! on the wheel at P:   N k + Fx x + Fy y     and     Mz k + My n + Mx x
-//! power on the wheel   P = N v·k + Fx (v·x − l Ω) + Fy v·y + Mz (w·k + Ω sin γ) + My (w·n + Ω) + Mx w·x
-//! account              P = N ż − dU/dt − D,     so     D = N ż − P − dU/dt
+//! on the road moving   P = N v·k + Fx (v·x − l Ω) + Fy v·y + Mz (w·k + Ω sin γ) + My (w·n + Ω) + Mx w·x
+//! power on the wheel   P + R,     R = ż (N k + Fx x + Fy y)·z
+//! account              P + R = R − dU/dt − D,     so     D = −P − dU/dt
 //! ```
 //!
-//! N load; F, M friction forces, N, and moments, N m; v velocity of the carrier at P, m/s; w its angular velocity, rad/s; l depth of
-//! P below the axle in the plane of the wheel, m (`n × (P − C) = −l x`); Ω spin, rad/s; ż speed of the road, m/s; U energy of the
+//! N load; F, M friction forces, N, and moments, N m; v velocity of the carrier at P against the road, m/s; w its angular velocity, rad/s; l depth of
+//! P below the axle in the plane of the wheel, m (`n × (P − C) = −l x`); Ω spin, rad/s; ż vertical speed of the road itself, m/s; U energy of the
 //! carcass, J. With the springs and dampers of a deformable carcass, D is the sum of damping, of friction `−Fx V_sx − Fy V_sy`, of
 //! rolling and spinning against the moments, and of `Fx Ω (l − re)`: power that appears or is lost because the effective radius
 //! re is not the lever l of the force, as in every tire model with both.
@@ -34,7 +35,7 @@ const LARGEST_CAMBER: f64 = 80.0 * PI / 180.0;
 pub(super) struct Patch<S> {
     /// From the center of the wheel to the contact point P, m.
     pub arm: Vec3<S>,
-    /// Velocity of the carrier at P, m/s.
+    /// Velocity of the carrier at P against the road, m/s.
     pub velocity: Vec3<S>,
     /// Depth of P below the axle, in the plane of the wheel, m.
     pub lever: S,
@@ -100,8 +101,9 @@ impl<S: SystemScalar> Patch<S> {
         let rotation = f.aligning_moment * (w.dot(k) + spin * at.frame.sin_camber)
             + self.rolling_moment * (w.dot(at.axis) + spin)
             + f.overturning_moment * w.dot(x);
-        let supplied = self.support * at.height_rate;
-        Energy { stored: self.stored, supplied, dissipated: supplied - translation - rotation - self.stored_rate }
+        let upward = self.support * k.z + f.longitudinal * x.z + f.lateral * y.z;
+        let supplied = upward * at.road.rise_at(at.center + self.arm);
+        Energy { stored: self.stored, supplied, dissipated: -translation - rotation - self.stored_rate }
     }
 }
 

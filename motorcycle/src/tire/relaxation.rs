@@ -19,8 +19,9 @@
 use super::carcass::{Elastic, RelaxationLength};
 use super::deformable::CARCASS_LATERAL;
 use super::element::Tire;
-use super::law::{Slip, TireLaw};
+use super::law::Slip;
 use super::patch::Patch;
+use super::similarity;
 use mbody::force::{Evaluated, StateDeclared};
 use mbody::scalar::SystemScalar;
 
@@ -78,6 +79,8 @@ pub(super) struct Sliding<S> {
     pub reference: S,
     pub load: S,
     pub camber: S,
+    /// Friction of the road; none where it is 1.
+    pub road: Option<S>,
 }
 
 impl<S: SystemScalar> Sliding<S> {
@@ -108,7 +111,7 @@ impl Relaxation {
     /// Friction, slips and rows.
     #[inline]
     pub(super) fn relax<S: SystemScalar>(&self, tire: &Tire, sliding: &Sliding<S>, at: &Evaluated<'_, S>, patch: &mut Patch<S>) {
-        let Sliding { x, y, reference, load, camber } = *sliding;
+        let Sliding { x, y, reference, load, camber, road } = *sliding;
         let length = |sigma: &RelaxationLength| sigma.at(&tire.law, load, camber, reference);
         let per_reference = reference.recip();
         let (mut a, mut kappa) = (-y * per_reference, -x * per_reference);
@@ -124,7 +127,7 @@ impl Relaxation {
             }
             Self::None | Self::Force(_) | Self::ForceWithoutCamber(_) => {}
         }
-        let mut friction = tire.law.friction(&sliding.slip(a, kappa));
+        let mut friction = similarity::friction(&tire.law, &sliding.slip(a, kappa), road);
         let steady = friction.lateral;
         match self {
             Self::Elastic(spring) => {
@@ -138,7 +141,7 @@ impl Relaxation {
                 patch.rows[0] = length(sigma) * per_reference * at.state_rate(0) + friction.lateral - steady;
             }
             Self::ForceWithoutCamber(sigma) => {
-                let of_camber = tire.law.friction(&sliding.slip(S::zero(), kappa)).lateral;
+                let of_camber = similarity::friction(&tire.law, &sliding.slip(S::zero(), kappa), road).lateral;
                 friction.lateral = at.state(0) + of_camber;
                 patch.rows[0] = length(sigma) * per_reference * at.state_rate(0) + friction.lateral - steady;
             }

@@ -40,6 +40,7 @@ impl Rigid {
             reference: tire.reference_speed(speed),
             load,
             camber: frame.camber,
+            road: wheel.road.friction,
         };
         let mut patch = Patch {
             arm,

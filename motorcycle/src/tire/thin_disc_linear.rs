@@ -1,13 +1,13 @@
 //! Thin disc with linear friction and a hard cut of the load: the tire of the `moto11` benchmark.
 //!
 //! ```text
-//! P = C − R e          N = max(0, k δ + c δ̇),      δ = z − P·z,   δ̇ = ż − v·z,   v = v_C + (w − n (n·w)) × (P − C)
+//! P = C − R e          N = max(0, k δ + c δ̇),      δ = −(P − P0)·k,   δ̇ = −v·k + δ k̇_z/k_z,   v = v_C + (w − n (n·w)) × (P − C)
 //! V* = √((v·x)² + V0²)           α = −atan2(v·y, V*)        κ = −(v·x − R Ω')/V*
 //! Fx = Kκ κ N          Fy = (Kα α − Kγ γ) N                  all forces at P, no moments
 //! ```
 //!
-//! C center, n spin axis to the left, e upward in the plane of the disc, x, y forward and left on the level road, z height of the road,
-//! m; R radius, m; w angular velocity of the carrier, Ω' = Ω + n·w spin of the disc in space, rad/s; k N/m, c N s/m; K per load. The force acts at the lowest
+//! C center, n spin axis to the left, e upward in the plane of the disc, x, y forward and left on the road through P0, k its normal, v against
+//! the road; R radius, m; w angular velocity of the carrier, Ω' = Ω + n·w spin of the disc in space, rad/s; k N/m, c N s/m; K per load. The force acts at the lowest
 //! point of the undeformed disc, below the road. Camber γ is positive leaning right; the benchmark counts it positive leaning left.
 //!
 //! Source: definition of the benchmark, see `models/vehicles/moto11/SOURCE.md`.
@@ -49,7 +49,9 @@ impl ThinDiscLinear {
         // without the part of the carrier's rotation about the axle, which the benchmark counts as spin
         let about_axle = wheel.angular_velocity.dot(wheel.axis);
         let v = wheel.velocity_at(arm) + frame.x.scaled(about_axle * radius);
-        let (depth, depth_rate) = (wheel.penetration, wheel.height_rate - v.dot(frame.k));
+        let depth = wheel.penetration;
+        // the force acts below a road that may steepen
+        let depth_rate = depth * wheel.road.steepening() - v.dot(frame.k);
         let force = self.normal.force(depth, depth_rate);
         let load = if force.value() > 0.0 { force } else { S::zero() };
 
@@ -125,7 +127,7 @@ pub struct ThinDiscLinearDescription {
     camber_stiffness: NonNegativeQuantity<PerAngle>,
     /// Speed below which slips are rounded; 0.1 m/s where left out.
     low_speed: Option<PositiveQuantity<Speed>>,
-    /// Name of the road under this wheel: inputs `<road>.height` and `<road>.height_rate`; `road` where left out.
+    /// Name of the road under this wheel: inputs `<road>.height`, `<road>.grade`, `<road>.cross_slope` and their rates; `road` where left out. Its friction changes nothing, because the law has no peak.
     road: Option<String>,
 }
 

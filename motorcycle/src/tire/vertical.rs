@@ -37,7 +37,7 @@ impl Vertical {
         let v = wheel.velocity_at(arm);
 
         // load
-        let depth_rate = wheel.height_rate - v.dot(frame.k);
+        let depth_rate = -v.dot(frame.k);
         let force = self.normal.force(depth, depth_rate) + depth * depth.abs() * self.quadratic;
         let load = tire.contact.load(tire.contact.hold(depth), force);
         let compressed = tire.contact.compressed(depth);
@@ -53,6 +53,7 @@ impl Vertical {
             reference: tire.reference_speed(speed),
             load,
             camber: frame.camber,
+            road: wheel.road.friction,
         };
         let mut patch = Patch {
             arm,

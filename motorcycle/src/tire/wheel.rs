@@ -8,8 +8,9 @@
 //! The axis is taken from the carrier and the spin from the joint, so nothing depends on the angle of the wheel.
 //!
 //! Source: V. Cossalter, R. Lot, Vehicle System Dynamics 37 (2002) 423–447.
-//! Range: camber below 75 degrees or so; a level road that may rise and fall under each wheel.
+//! Range: camber below 75 degrees or so; the road is a plane under each wheel ([`crate::road::Footing`]), level where nobody says otherwise. v is taken against the road.
 
+use crate::road::{Footing, Under};
 use mbody::contact::{ContactFrame, Meridian, Profile, TangentPlane};
 use mbody::force::{Evaluated, InputDeclared};
 use mbody::model::{BodyIndex, Model};
@@ -30,8 +31,8 @@ pub struct Wheel {
     pub axis: Vec3<f64>,
     /// Cross-section of the tire.
     pub profile: Profile,
-    /// Name under which the height of the road comes in: inputs `<road>.height` and `<road>.height_rate`; none: the plane z = 0.
-    pub road: Option<String>,
+    /// The road as inputs tell it; none: the plane z = 0.
+    pub road: Option<Footing>,
 }
 
 impl Wheel {
@@ -39,24 +40,12 @@ impl Wheel {
     pub fn new(model: &Model, body: BodyIndex, profile: Profile, road: impl Into<String>) -> Option<Self> {
         let joint = model.body(body);
         let axis = joint.X_PF.R.times_const(joint.joint.rotation_axis()?);
-        Some(Self { body, carrier: joint.parent, axis, profile, road: Some(road.into()) })
+        Some(Self { body, carrier: joint.parent, axis, profile, road: Some(Footing::new(model, body, road)) })
     }
 
     /// The inputs that every tire on such a road reads first.
     pub(super) fn inputs(&self) -> Vec<InputDeclared> {
-        let Some(road) = &self.road else { return Vec::new() };
-        let (height, rate) = (format!("{road}.height"), format!("{road}.height_rate"));
-        vec![
-            InputDeclared {
-                name: height,
-                unit: "m",
-                about: "height of the road, upward",
-                nominal: 0.01,
-                rate: Some(rate.clone()),
-                default: 0.0,
-            },
-            InputDeclared { name: rate, unit: "m/s", about: "rate of the height of the road", nominal: 0.1, rate: None, default: 0.0 },
-        ]
+        self.road.as_ref().map(Footing::inputs).unwrap_or_default()
     }
 
     /// Depth of the undeformed tire below the plane z = 0, m, from the poses of wheel and carrier in the world.
@@ -73,10 +62,8 @@ impl Wheel {
         let center = at.X_WB(self.body).p;
         let R_WC = &at.X_WB(self.carrier).R;
         let axis = if self.axis == LEFT { R_WC.columns[1] } else { R_WC.times_const(self.axis) };
-        let (height, height_rate) = if self.road.is_some() { (at.input(0), at.input(1)) } else { (S::zero(), S::zero()) };
-        let up = Vec3::from_f64(Vec3 { x: 0.0, y: 0.0, z: 1.0 });
-        let plane = TangentPlane { point: Vec3::new(S::zero(), S::zero(), height), normal: up };
-        let frame = ContactFrame::new(center, axis, &plane);
+        let road = self.road.as_ref().map_or_else(|| Under::level(S::zero(), S::zero()), |road| road.under(at, 0));
+        let frame = ContactFrame::new(center, axis, &road.plane);
         let meridian = self.profile.meridian_at(&frame);
         let penetration = meridian.a * frame.cos_camber + meridian.b * frame.sin_camber - frame.center_height;
         Rolling {
@@ -88,7 +75,7 @@ impl Wheel {
             center_velocity: at.v_WQ(self.carrier, center),
             angular_velocity: at.w_WB(self.carrier),
             spin: at.speed(self.body),
-            height_rate,
+            road,
         }
     }
 }
@@ -111,14 +98,15 @@ pub(super) struct Rolling<S> {
     pub angular_velocity: Vec3<S>,
     /// Spin, rad/s.
     pub spin: S,
-    /// Vertical speed of the road, m/s.
-    pub height_rate: S,
+    /// The road.
+    pub road: Under<S>,
 }
 
 impl<S: SystemScalar> Rolling<S> {
-    /// Velocity of the carrier, without the spin, at a distance from the center of the wheel.
+    /// Velocity of the carrier against the road, without the spin, at a distance from the center of the wheel.
     #[inline]
     pub fn velocity_at(&self, arm: Vec3<S>) -> Vec3<S> {
-        self.center_velocity + self.angular_velocity.cross(arm)
+        let v = self.center_velocity + self.angular_velocity.cross(arm);
+        Vec3::new(v.x, v.y, v.z - self.road.rise_at(self.center + arm))
     }
 }

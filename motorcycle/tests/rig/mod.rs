@@ -50,8 +50,8 @@ impl Rig {
     pub fn new(model: Model, forces: Vec<Force>) -> Self {
         let plant = TreePlant::new(Arc::new(System::new(model, forces).expect("a system")));
         let y: Vec<f64> = plant.unknowns().iter().map(|u| u.design).collect();
-        let (n, m) = (y.len(), plant.inputs().len());
-        Self { plant, y, yd: vec![0.0; n], u: vec![0.0; m] }
+        let (n, u) = (y.len(), plant.inputs().iter().map(|i| i.default).collect());
+        Self { plant, y, yd: vec![0.0; n], u }
     }
 
     pub fn slot(&self, name: &str) -> Slot {

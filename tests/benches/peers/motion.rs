@@ -15,7 +15,7 @@ fn simulate(plant: &mut TreePlant, implicit: bool, relative_tolerance: f64) -> S
     let mut start = Start::stated(plant);
     let at = |name: &str| plant.unknowns().iter().position(|u| u.signal.name == name).expect("a velocity of the bicycle");
     start.hold(plant, &[(at("chassis.forward_speed"), 4.0), (at("chassis.roll_rate"), 0.05)]);
-    let inputs = Constant(vec![0.0; plant.inputs().len()]);
+    let inputs = Constant::defaults(plant);
     let record = everything(plant).into_iter().take(1).collect();
     let transient = Transient { start, times: vec![0.0, 5.0], options, record, ends: Vec::new(), breaks: Vec::new() };
     match implicit {

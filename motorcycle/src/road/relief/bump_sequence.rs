@@ -3,7 +3,7 @@
 //! At the speed V they are felt with the frequency V/d, d the spacing: the test by which hops and pitching are found. Source and range: those of `cosine_bump`.
 
 use super::cosine_bump::Bump;
-use super::{Relief, ReliefDescription};
+use super::{Relief, ReliefDescription, Uneven};
 use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity, dimension::Length};
@@ -36,7 +36,7 @@ struct Bumps {
     count: u32,
 }
 
-impl Relief for Bumps {
+impl Uneven for Bumps {
     fn at(&self, s: f64) -> CurvePoint<f64> {
         let passed = ((s - self.first.begin) / self.spacing).floor().clamp(0.0, f64::from(self.count - 1));
         self.first.at(s - passed * self.spacing)

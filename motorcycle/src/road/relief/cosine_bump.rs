@@ -4,7 +4,7 @@
 //! Source: elementary; a full period of a raised cosine. Range: lengths above that of
 //! the contact patch, 0.1 m or so, which the road would otherwise be averaged over.
 
-use super::{Relief, ReliefDescription};
+use super::{Relief, ReliefDescription, Uneven};
 use mbody::description::Library;
 use mbody::description::finding::Findings;
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity, dimension::Length};
@@ -34,7 +34,7 @@ pub(super) struct Bump {
     pub begin: f64,
 }
 
-impl Relief for Bump {
+impl Uneven for Bump {
     fn at(&self, s: f64) -> CurvePoint<f64> {
         let q = (s - self.begin) / self.length;
         if !(0.0..=1.0).contains(&q) {

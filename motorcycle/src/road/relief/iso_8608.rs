@@ -2,7 +2,7 @@
 //!
 //! Equation, symbols, source, range: [`crate::road::Roughness`]. Both wheels run over the same profile, the rear wheel later.
 
-use super::{Onset, Relief, ReliefDescription, USUAL};
+use super::{Onset, Relief, ReliefDescription, USUAL, Uneven};
 use crate::road::roughness::{CLASSES, Profile, Roughness};
 use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings, suggestion};
@@ -38,7 +38,7 @@ struct Rough {
     onset: Onset,
 }
 
-impl Relief for Rough {
+impl Uneven for Rough {
     fn at(&self, s: f64) -> CurvePoint<f64> {
         self.onset.of(self.profile.at(s), s)
     }

@@ -3,7 +3,7 @@
 //! Symbols: a amplitude, m; λ wavelength, m; s₀ where they begin, m. At the speed V they are felt with the frequency V/λ.
 //! Source: elementary. Range: wavelengths above that of the contact patch, 0.1 m or so.
 
-use super::{Onset, Relief, ReliefDescription, USUAL};
+use super::{Onset, Relief, ReliefDescription, USUAL, Uneven};
 use mbody::description::Library;
 use mbody::description::finding::Findings;
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity, dimension::Length};
@@ -34,7 +34,7 @@ struct Waves {
     onset: Onset,
 }
 
-impl Relief for Waves {
+impl Uneven for Waves {
     fn at(&self, s: f64) -> CurvePoint<f64> {
         let (sine, cosine) = (self.number * (s - self.onset.begin)).sin_cos();
         let (a, k) = (self.amplitude, self.number);

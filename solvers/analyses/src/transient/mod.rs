@@ -26,7 +26,7 @@ mod watch;
 
 pub use ending::{Cause, Moving, TransientEnding, TransientError};
 pub use inputs::{Constant, Inputs};
-pub use track::{Driven, Pulse, Ramp, Step, Table, Track};
+pub use track::{Drifting, Driven, Pulse, Ramp, Step, Table, Track};
 pub use trajectory::{Crossing, Drift, LimitMet, NearSingular, Trajectory, Worst};
 
 use crate::{Variable, Variables};

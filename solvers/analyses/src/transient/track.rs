@@ -57,6 +57,25 @@ impl Track for Ramp {
     }
 }
 
+/// A straight line through zero at the start, without end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drifting {
+    /// Change per second.
+    pub rate: f64,
+}
+
+impl Track for Drifting {
+    fn value(&self, time: f64) -> f64 {
+        self.rate * time
+    }
+    fn rate(&self, _time: f64) -> f64 {
+        self.rate
+    }
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
 /// One bell `h/2 (1 − cos 2πs)` over its duration, with a continuous rate: a bump, a gust, a steering impulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
