@@ -6,6 +6,7 @@ use super::description::SAME_RADIUS;
 use super::element::Carcass;
 use super::relaxation::Relaxation;
 use super::rigid::Rigid;
+use super::tir::PropertyFile;
 use super::vertical::Vertical;
 use super::wheel::Wheel;
 use mbody::assembly::Site;
@@ -99,6 +100,8 @@ pub enum RelaxationDescription {
     Force(ForceLagDescription),
     /// By a lag of the side force except what camber alone produces.
     ForceWithoutCamber(ForceLagDescription),
+    /// By a lag of both slips over the lengths of the tire property file.
+    OfFile,
 }
 
 /// A lag of the slip.
@@ -142,7 +145,9 @@ impl LengthDescription {
 }
 
 /// The carcass of a description.
-pub(super) fn carcass(description: CarcassDescription, wheel: Option<&Wheel>, site: &mut Site<'_>) -> Option<Carcass> {
+///
+/// `file`: whether the law comes from a property file.
+pub(super) fn carcass(description: CarcassDescription, wheel: Option<&Wheel>, file: bool, site: &mut Site<'_>) -> Option<Carcass> {
     match description {
         CarcassDescription::Deformable(c) => {
             let longitudinal = c.longitudinal.map(ElasticDescription::elastic);
@@ -151,23 +156,61 @@ pub(super) fn carcass(description: CarcassDescription, wheel: Option<&Wheel>, si
         CarcassDescription::Vertical(c) => Some(Carcass::Vertical(Vertical {
             normal: Elastic { stiffness: c.stiffness.si(), damping: c.damping.si() },
             quadratic: c.stiffness_quadratic.map_or(0.0, Quantity::si),
-            relaxation: relaxation("carcass.vertical.relaxation", c.relaxation, site)?,
+            relaxation: relaxation("carcass.vertical.relaxation", c.relaxation, file, site)?,
         })),
         CarcassDescription::Rigid(c) => {
-            let relaxation = relaxation("carcass.rigid.relaxation", c.relaxation, site);
+            let relaxation = relaxation("carcass.rigid.relaxation", c.relaxation, file, site);
             let load = holding(&c.contact, wheel?, site);
             Some(Carcass::Rigid(Rigid { load: load?, relaxation: relaxation? }))
         }
     }
 }
 
-fn relaxation(key: &str, description: RelaxationDescription, site: &mut Site<'_>) -> Option<Relaxation> {
+/// The carcass of a tire property file: a spring along the normal of the road, and a lag of both slips.
+///
+/// The load of 6.x is `Fz = (q1 ρ/R0 + Q_FZ2 (ρ/R0)²) Fz0 (1 + PFZ1 p)`, `q1² = (Cz R0/Fz0)² − 4 Q_FZ2`; its changes with speed and with the forces in the plane
+/// of the road are left out. Source: H. B. Pacejka, *Tire and Vehicle Dynamics*, 3rd ed., equation 4.E68.
+pub(super) fn carcass_of_file(file: &PropertyFile, pressure: Option<f64>, site: &mut Site<'_>) -> Option<Carcass> {
+    let c = &file.coefficients;
+    if c.VERTICAL_STIFFNESS <= 0.0 {
+        let message = format!("`{}` has no `VERTICAL_STIFFNESS`, so the springs of the tire must be given", file.name);
+        site.find("", Finding::error("missing_key", message).with_hint("add `carcass: { vertical: { stiffness: …, damping: … } }`"));
+        return None;
+    }
+    let inflated = match c.NOMPRES > 0.0 {
+        true => 1.0 + c.PFZ1 * (pressure.unwrap_or(if c.INFLPRES > 0.0 { c.INFLPRES } else { c.NOMPRES }) / c.NOMPRES - 1.0),
+        false => 1.0,
+    };
+    let (radius, load) = (c.UNLOADED_RADIUS, c.FNOMIN);
+    let square = (c.VERTICAL_STIFFNESS * radius / load).powi(2) - 4.0 * c.Q_FZ2;
+    if square <= 0.0 {
+        site.refuse("law.tir", "out_of_range", format!("`Q_FZ2` of `{}` is {}, too large for its `VERTICAL_STIFFNESS`", file.name, c.Q_FZ2));
+        return None;
+    }
+    Some(Carcass::Vertical(Vertical {
+        normal: Elastic { stiffness: square.sqrt() * load / radius * inflated, damping: c.VERTICAL_DAMPING },
+        quadratic: c.Q_FZ2 * load / (radius * radius) * inflated,
+        relaxation: OF_FILE,
+    }))
+}
+
+/// Lag of both slips over the lengths of the law.
+const OF_FILE: Relaxation =
+    Relaxation::Slip { lateral: RelaxationLength::LateralOfLaw, longitudinal: Some(RelaxationLength::LongitudinalOfLaw) };
+
+fn relaxation(key: &str, description: RelaxationDescription, file: bool, site: &mut Site<'_>) -> Option<Relaxation> {
     let relaxation = match description {
         RelaxationDescription::None => Relaxation::None,
         RelaxationDescription::Elastic(spring) => Relaxation::Elastic(spring.elastic()),
         RelaxationDescription::Slip(lag) => {
             Relaxation::Slip { lateral: lag.length.length(), longitudinal: lag.longitudinal_length.map(LengthDescription::length) }
         }
+        RelaxationDescription::OfFile if !file => {
+            let finding = Finding::error("contradictory_entries", "relaxation lengths `of_file` need a law from a tire property file");
+            site.find(key, finding.with_hint("give lengths: `relaxation: { slip: { length: { constant: 0.15 m } } }`"));
+            return None;
+        }
+        RelaxationDescription::OfFile => OF_FILE,
         RelaxationDescription::Force(lag) => Relaxation::Force(lag.length.length()),
         RelaxationDescription::ForceWithoutCamber(lag) => Relaxation::ForceWithoutCamber(lag.length.length()),
     };
