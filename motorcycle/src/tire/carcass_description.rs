@@ -31,6 +31,21 @@ pub enum CarcassDescription {
     Rigid(RigidDescription),
 }
 
+impl CarcassDescription {
+    /// Stiffness of the spring that side forces build up over, N/m, where there is one.
+    pub(super) fn lateral_stiffness(&self) -> Option<f64> {
+        let of = |relaxation: &RelaxationDescription| match relaxation {
+            RelaxationDescription::Elastic(spring) => Some(spring.stiffness.si()),
+            _ => None,
+        };
+        match self {
+            Self::Deformable(c) => Some(c.lateral.stiffness.si()),
+            Self::Vertical(c) => of(&c.relaxation),
+            Self::Rigid(c) => of(&c.relaxation),
+        }
+    }
+}
+
 /// Springs along radius and axle of the rim.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -184,7 +199,11 @@ pub(super) fn carcass_of_file(file: &PropertyFile, pressure: Option<f64>, site: 
     let (radius, load) = (c.UNLOADED_RADIUS, c.FNOMIN);
     let square = (c.VERTICAL_STIFFNESS * radius / load).powi(2) - 4.0 * c.Q_FZ2;
     if square <= 0.0 {
-        site.refuse("law.tir", "out_of_range", format!("`Q_FZ2` of `{}` is {}, too large for its `VERTICAL_STIFFNESS`", file.name, c.Q_FZ2));
+        site.refuse(
+            "law.tir",
+            "out_of_range",
+            format!("`Q_FZ2` of `{}` is {}, too large for its `VERTICAL_STIFFNESS`", file.name, c.Q_FZ2),
+        );
         return None;
     }
     Some(Carcass::Vertical(Vertical {

@@ -11,6 +11,7 @@ use super::tir::PropertyFile;
 use super::wheel::Wheel;
 use mbody::assembly::{ElementDescription, Site};
 use mbody::contact::Profile;
+use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::{Angle, Length, Number, Pressure, Speed};
 use mbody::description::quantity::{Fraction, NonNegativeQuantity, PositiveQuantity, Quantity};
@@ -180,7 +181,33 @@ impl ElementDescription for TireDescription {
     }
 }
 
+/// The law of a tire and what its carcass says of it, apart from any vehicle.
+#[derive(Debug)]
+pub struct StatedTire {
+    /// The law.
+    pub named: NamedLaw,
+    /// Lateral stiffness of the carcass, N/m, over which the cornering stiffness is the relaxation length; none where it gives way otherwise.
+    pub lateral_stiffness: Option<f64>,
+}
+
 impl TireDescription {
+    /// The law of a tire whose written form is `value`; the wheel is taken to be in the middle plane where its law does not say.
+    ///
+    /// # Errors
+    /// `None` where there are errors among the findings.
+    pub fn stated(value: &serde_json::Value, library: &dyn Library, findings: &mut Findings) -> Option<StatedTire> {
+        let read = serde_path_to_error::deserialize::<_, Self>(value);
+        let wrong = |e: serde_path_to_error::Error<serde_json::Error>| {
+            Finding::error("wrong_value", e.inner().to_string()).at_path(e.path().to_string())
+        };
+        let mut description = read.map_err(|error| findings.push(wrong(error))).ok()?;
+        let crowned = !matches!(description.crown, None | Some(CrownDescription::Disc));
+        let place = Place { mounted: Some(Mounted::Middle), crowned, pressure: description.pressure.map(Quantity::si) };
+        let named = description.law.take()?.law(&place, library, findings)?;
+        let lateral_stiffness = description.carcass.as_ref().and_then(CarcassDescription::lateral_stiffness);
+        Some(StatedTire { named, lateral_stiffness })
+    }
+
     /// What the place of the tire says about its law.
     fn place(&self, site: &Site<'_>) -> Place {
         let aside = site.model().joint(&self.wheel).map_or(0.0, |body| site.design_pose(body).p.y);
@@ -190,7 +217,7 @@ impl TireDescription {
             _ => Mounted::Middle,
         };
         let crowned = !matches!(self.crown, None | Some(CrownDescription::Disc));
-        Place { mounted, crowned, pressure: self.pressure.map(Quantity::si) }
+        Place { mounted: Some(mounted), crowned, pressure: self.pressure.map(Quantity::si) }
     }
 
     /// Whether everything is said that no property file says.
@@ -206,7 +233,10 @@ impl TireDescription {
         for (key, missing, about) in missing {
             if missing {
                 let finding = Finding::error("missing_key", format!("missing key `{key}`"));
-                site.find("", finding.with_hint(format!("`{key}` is {about}; only a law from a tire property file (`law: {{ tir: … }}`) gives it")));
+                site.find(
+                    "",
+                    finding.with_hint(format!("`{key}` is {about}; only a law from a tire property file (`law: {{ tir: … }}`) gives it")),
+                );
             }
         }
         missing.iter().all(|(_, missing, _)| !missing)

@@ -4,7 +4,7 @@ use super::compact_motorcycle::CompactMotorcycleParameters;
 use super::invalid::InvalidTireData;
 use super::law::AnyTireLaw;
 use super::linear_normalized::LinearNormalizedParameters;
-use super::magic_formula::{BeyondFit, Coefficients, FileAxes, KEYS, MagicFormula, Side, Usage};
+use super::magic_formula::{BeyondFit, Coefficients, FileAxes, KEYS, MagicFormula, Side, TrailCamber, Usage};
 use super::magic_formula_motorcycle::{CamberPeak, MagicFormulaMotorcycleParameters};
 use super::sharp_linear::SharpLinearParameters;
 use super::tir::{self, PropertyFile, TireSide};
@@ -62,6 +62,9 @@ pub struct TirUse {
     pub beyond_fit: BeyondFit,
     /// How camber changes the peak of the side force of a PAC_MC tire; `multiply` where left out.
     pub camber_peak: Option<CamberPeak>,
+    /// How camber changes the trail of MF 6.x: by its `magnitude` (the book, where left out) or `signed` (as the solver of its authors is reported to do).
+    #[serde(default)]
+    pub trail_camber: TrailCamber,
     /// Factors on coefficients, for studies: `LMUX: 0.6` for the friction on a wet road.
     #[serde(default)]
     pub factors: BTreeMap<String, f64>,
@@ -102,8 +105,8 @@ impl AxesDescription {
 /// What the place of a tire says about its law.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// Where the wheel is.
-    pub mounted: Mounted,
+    /// Where the wheel is; none: as the tire was measured.
+    pub mounted: Option<Mounted>,
     /// Whether the shape of the cross-section makes the overturning moment.
     pub crowned: bool,
     /// Inflation pressure, Pa, where the description gives it.
@@ -194,17 +197,7 @@ impl LawDescription {
 impl TirDescription {
     fn law(self, place: &Place, library: &dyn Library, findings: &mut Findings) -> Option<NamedLaw> {
         let (used, key) = match self {
-            Self::Name(file) => {
-                let plain = TirUse {
-                    file,
-                    mounted: None,
-                    axes: AxesDescription::Iso,
-                    beyond_fit: BeyondFit::Hold,
-                    camber_peak: None,
-                    factors: BTreeMap::new(),
-                };
-                (plain, "law.tir")
-            }
+            Self::Name(file) => (TirUse::plain(&file), "law.tir"),
             Self::Use(used) => (used, "law.tir.file"),
         };
         let text = text(&used.file, key, library, findings)?;
@@ -218,6 +211,19 @@ impl TirDescription {
 }
 
 impl TirUse {
+    /// The file with nothing else said.
+    pub fn plain(file: &str) -> Self {
+        Self {
+            file: file.to_owned(),
+            mounted: None,
+            axes: AxesDescription::Iso,
+            beyond_fit: BeyondFit::Hold,
+            camber_peak: None,
+            trail_camber: TrailCamber::Magnitude,
+            factors: BTreeMap::new(),
+        }
+    }
+
     /// Multiplies coefficients; whether all of them exist and stay usable.
     fn scale(&self, coefficients: &mut Coefficients, findings: &mut Findings) -> bool {
         let mut fine = true;
@@ -242,13 +248,12 @@ impl TirUse {
 
     /// How the file is used at a place.
     fn usage(&self, file: &PropertyFile, place: &Place, findings: &mut Findings) -> Usage {
-        let mounted = self.mounted.unwrap_or(place.mounted);
-        let side = match (file.side, mounted) {
-            (TireSide::Symmetric, _) | (_, Mounted::Middle) => Side::Symmetric,
-            (TireSide::Left, Mounted::Left) | (TireSide::Right, Mounted::Right) => Side::Measured,
-            (TireSide::Left, Mounted::Right) | (TireSide::Right, Mounted::Left) => Side::Mirrored,
+        let side = match (file.side, self.mounted.or(place.mounted)) {
+            (TireSide::Symmetric, _) | (_, Some(Mounted::Middle)) => Side::Symmetric,
+            (_, None) | (TireSide::Left, Some(Mounted::Left)) | (TireSide::Right, Some(Mounted::Right)) => Side::Measured,
+            (TireSide::Left, Some(Mounted::Right)) | (TireSide::Right, Some(Mounted::Left)) => Side::Mirrored,
         };
-        if side == Side::Symmetric && file.coefficients.symmetric(file.dialect.bit) != file.coefficients {
+        if side == Side::Symmetric && file.coefficients.symmetric(file.dialect.trail_camber(self.trail_camber)) != file.coefficients {
             let why = if file.side == TireSide::Symmetric { "it says `SYMMETRIC`" } else { "the wheel is in the middle plane" };
             let message = format!("what tells left from right in `{}` (conicity, plysteer) is left out, because {why}", file.name);
             let finding = Finding::note("symmetric_tire", message).at_path("law.tir");
@@ -265,6 +270,7 @@ impl TirUse {
             beyond: self.beyond_fit,
             pressure: place.pressure,
             camber_peak: self.camber_peak.unwrap_or(CamberPeak::Multiply),
+            trail_camber: self.trail_camber,
             crowned: place.crowned,
         }
     }

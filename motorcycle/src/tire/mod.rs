@@ -9,6 +9,7 @@
 
 pub mod carcass;
 pub mod carcass_description;
+pub mod characteristic;
 pub mod compact_motorcycle;
 pub mod deformable;
 pub mod description;
@@ -35,13 +36,14 @@ mod patch;
 mod shape;
 
 pub use carcass::{Elastic, RelaxationLength, RoadContact};
+pub use characteristic::{Characteristic, characteristic};
 pub use deformable::Deformable;
-pub use description::TireDescription;
+pub use description::{StatedTire, TireDescription};
+pub use effective_radius::EffectiveRadius;
 pub use element::{Carcass, Tire};
 pub use invalid::InvalidTireData;
-pub use effective_radius::EffectiveRadius;
-pub use law_description::{LawDescription, Mounted, NamedLaw, Place};
 pub use law::{AnyTireLaw, Fit, Friction, MomentPoint, Slip, TireLaw};
+pub use law_description::{LawDescription, Mounted, NamedLaw, Place};
 pub use relaxation::Relaxation;
 pub use rigid::Rigid;
 pub use thin_disc_linear::{ThinDiscLinear, ThinDiscLinearDescription};

@@ -157,7 +157,8 @@ pub(super) fn limits(element: &str, wheel: &Wheel, saturates: bool) -> Vec<Limit
 /// The states in which the law was measured.
 pub(super) fn ranges(element: &str, fit: Option<Fit>) -> Vec<RangeDeclared> {
     let Some(fit) = fit else { return Vec::new() };
-    let range = |quantity: &str, bounds| RangeDeclared { signal: format!("{element}.{quantity}"), bounds, about: "the measurements of the tire" };
+    let range =
+        |quantity: &str, bounds| RangeDeclared { signal: format!("{element}.{quantity}"), bounds, about: "the measurements of the tire" };
     vec![
         range("normal_force", fit.load),
         range("slip_angle", fit.slip_angle),

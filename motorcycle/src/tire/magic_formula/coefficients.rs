@@ -6,6 +6,8 @@
 //! Source: lists of keys in the manuals of MF-Tyre 5.2, MF-MCTyre 1.x and MF-Tyre 6.x as public programs reproduce them;
 //! meaning after H. B. Pacejka, *Tire and Vehicle Dynamics*, chapter 4 and section 10.6.
 
+use super::TrailCamber;
+
 /// A set of dialects, one bit each.
 pub type Dialects = u8;
 
@@ -94,7 +96,6 @@ macro_rules! keys {
         }
     };
 }
-
 
 keys! {
     "MODEL" {
@@ -331,37 +332,131 @@ const MC_AND_MF6: Dialects = MC | MF6;
 /// Coefficients that tell left from right: a symmetric tire has none of them.
 ///
 /// RHX1, though it shifts a slip angle, is one of them; RHY1 and RHY2 shift longitudinal slip and are not. SSZ2 keeps its side with Fy.
-/// QDZ3 goes with |γ| for motorcycle tires and stays there.
+/// QDZ3 is one of them where it goes with γ and not with |γ|.
 pub const ASYMMETRIC: &[&str] = &[
-    "RHX1", "QSX1", "PEY3", "PHY1", "PHY2", "PVY1", "PVY2", "RBY3", "RVY1", "RVY2", "QBZ4", "QDZ3", "QDZ6", "QDZ7", "QEZ4", "QHZ1", "QHZ2",
-    "SSZ1",
+    "RHX1", "QSX1", "PEY3", "PHY1", "PHY2", "PVY1", "PVY2", "RBY3", "RVY1", "RVY2", "QBZ4", "QDZ6", "QDZ7", "QEZ4", "QHZ1", "QHZ2", "SSZ1",
 ];
 
 /// Keys that property files have and that have no effect here: belts, contact patches, turn slip, names of tests.
 pub const WITHOUT_EFFECT: &[&str] = &[
-    "FILE_TYPE", "FILE_VERSION", "FILE_FORMAT", "TIRE_VERSION", "COMMENT", "USE_MODE", "USER_SUB_ID", "N_TIRE_STATES", "FUNCTION_NAME",
-    "PROPERTY_FILE_FORMAT", "FITTYP", "TYRESIDE", "TYPE", "MFSAFE1", "MFSAFE2", "MFSAFE3", "HMAX_LOCAL", "TIME_SWITCH_INTEG", "SWITCH_INTEG",
-    "ROAD_INCREMENT", "ROAD_DIRECTION", "WIDTH", "ASPECT_RATIO", "RIM_RADIUS", "RIM_WIDTH", "MASS", "IXX", "IYY", "BELT_MASS", "BELT_IXX",
-    "BELT_IYY", "GRAVITY", "BOTTOM_OFFST", "BOTTOM_STIFF", "Q_RE0", "Q_V1", "Q_V2", "Q_FCX", "Q_FCY", "Q_FCY2", "Q_CAM", "Q_CAM1", "Q_CAM2", "Q_CAM3",
-    "Q_FYS1", "Q_FYS2", "Q_FYS3", "MC_CONTOUR_A", "MC_CONTOUR_B", "YAW_STIFFNESS", "FREQ_LAT", "FREQ_LONG", "FREQ_WINDUP", "FREQ_YAW",
-    "DAMP_LAT", "DAMP_LONG", "DAMP_RESIDUAL", "DAMP_VLOW", "DAMP_WINDUP", "DAMP_YAW", "Q_BVX", "Q_BVT", "PCMZ1", "Q_RA1", "Q_RA2", "Q_RB1",
-    "Q_RB2", "Q_A1", "Q_A2", "ELLIPS_SHIFT", "ELLIPS_LENGTH", "ELLIPS_HEIGHT", "ELLIPS_ORDER", "ELLIPS_MAX_STEP", "ELLIPS_NWIDTH",
-    "ELLIPS_NLENGTH", "ELLIPS_INC", "ENV_C1", "ENV_C2", "LMP", "LMUV", "LAMU", "LGYR", "LCZ", "PDXP1", "PDXP2", "PDXP3", "PKYP1", "PDYP1",
-    "PDYP2", "PDYP3", "PDYP4", "PHYP1", "PHYP2", "PHYP3", "PHYP4", "PECP1", "PECP2", "QDTP1", "QCRP1", "QCRP2", "QBRP1", "QDRP1", "QDRP2",
-    "QTZ1", "MBELT",
+    "FILE_TYPE",
+    "FILE_VERSION",
+    "FILE_FORMAT",
+    "TIRE_VERSION",
+    "COMMENT",
+    "USE_MODE",
+    "USER_SUB_ID",
+    "N_TIRE_STATES",
+    "FUNCTION_NAME",
+    "PROPERTY_FILE_FORMAT",
+    "FITTYP",
+    "TYRESIDE",
+    "TYPE",
+    "MFSAFE1",
+    "MFSAFE2",
+    "MFSAFE3",
+    "HMAX_LOCAL",
+    "TIME_SWITCH_INTEG",
+    "SWITCH_INTEG",
+    "ROAD_INCREMENT",
+    "ROAD_DIRECTION",
+    "WIDTH",
+    "ASPECT_RATIO",
+    "RIM_RADIUS",
+    "RIM_WIDTH",
+    "MASS",
+    "IXX",
+    "IYY",
+    "BELT_MASS",
+    "BELT_IXX",
+    "BELT_IYY",
+    "GRAVITY",
+    "BOTTOM_OFFST",
+    "BOTTOM_STIFF",
+    "Q_RE0",
+    "Q_V1",
+    "Q_V2",
+    "Q_FCX",
+    "Q_FCY",
+    "Q_FCY2",
+    "Q_CAM",
+    "Q_CAM1",
+    "Q_CAM2",
+    "Q_CAM3",
+    "Q_FYS1",
+    "Q_FYS2",
+    "Q_FYS3",
+    "MC_CONTOUR_A",
+    "MC_CONTOUR_B",
+    "YAW_STIFFNESS",
+    "FREQ_LAT",
+    "FREQ_LONG",
+    "FREQ_WINDUP",
+    "FREQ_YAW",
+    "DAMP_LAT",
+    "DAMP_LONG",
+    "DAMP_RESIDUAL",
+    "DAMP_VLOW",
+    "DAMP_WINDUP",
+    "DAMP_YAW",
+    "Q_BVX",
+    "Q_BVT",
+    "PCMZ1",
+    "Q_RA1",
+    "Q_RA2",
+    "Q_RB1",
+    "Q_RB2",
+    "Q_A1",
+    "Q_A2",
+    "ELLIPS_SHIFT",
+    "ELLIPS_LENGTH",
+    "ELLIPS_HEIGHT",
+    "ELLIPS_ORDER",
+    "ELLIPS_MAX_STEP",
+    "ELLIPS_NWIDTH",
+    "ELLIPS_NLENGTH",
+    "ELLIPS_INC",
+    "ENV_C1",
+    "ENV_C2",
+    "LMP",
+    "LMUV",
+    "LAMU",
+    "LGYR",
+    "LCZ",
+    "PDXP1",
+    "PDXP2",
+    "PDXP3",
+    "PKYP1",
+    "PDYP1",
+    "PDYP2",
+    "PDYP3",
+    "PDYP4",
+    "PHYP1",
+    "PHYP2",
+    "PHYP3",
+    "PHYP4",
+    "PECP1",
+    "PECP2",
+    "QDTP1",
+    "QCRP1",
+    "QCRP2",
+    "QBRP1",
+    "QDRP1",
+    "QDRP2",
+    "QTZ1",
+    "MBELT",
 ];
 
 impl Coefficients {
     /// The coefficients without those that tell left from right.
-    pub fn symmetric(mut self, dialect: Dialects) -> Self {
-        let trail_of_magnitude = self.QDZ3;
+    pub fn symmetric(mut self, trail: TrailCamber) -> Self {
         for name in ASYMMETRIC {
             if let Some(value) = self.get_mut(name) {
                 *value = 0.0;
             }
         }
-        if dialect == MC {
-            self.QDZ3 = trail_of_magnitude;
+        if trail == TrailCamber::Signed {
+            self.QDZ3 = 0.0;
         }
         self
     }

@@ -1,5 +1,6 @@
 //! The dialects of the Magic Formula that tire property files are written in: one row each.
 
+use super::TrailCamber;
 use super::coefficients::{Dialects, KEYS, MC, MF52, MF61, MF62};
 
 /// How camber makes side force.
@@ -37,13 +38,7 @@ pub const DIALECTS: &[Dialect] = &[
         formats: &["PAC2002", "MF_05", "MF05", "MF52", "MF_TYRE"],
         camber: Camber::Shift,
     },
-    Dialect {
-        name: "PAC_MC",
-        bit: MC,
-        fit_types: &[],
-        formats: &["PAC_MC", "PACMC", "MF_MCTYRE", "MCTYRE"],
-        camber: Camber::Inside,
-    },
+    Dialect { name: "PAC_MC", bit: MC, fit_types: &[], formats: &["PAC_MC", "PACMC", "MF_MCTYRE", "MCTYRE"], camber: Camber::Inside },
     Dialect { name: "MF 6.1", bit: MF61, fit_types: &[60.0, 61.0], formats: &["MF61", "MF_61", "MF_TYRE61"], camber: Camber::Stiffness },
     Dialect { name: "MF 6.2", bit: MF62, fit_types: &[62.0], formats: &["MF62", "MF_62", "MF_TYRE62"], camber: Camber::Stiffness },
 ];
@@ -52,6 +47,15 @@ impl Dialect {
     /// Whether the dialect cannot do without a key.
     pub fn needs(&self, key: &str) -> bool {
         KEYS.iter().any(|k| k.name == key && k.needed & self.bit != 0)
+    }
+
+    /// How camber changes the trail: as asked for in 6.x, by its sign in 5.2, by its magnitude for motorcycle tires.
+    pub fn trail_camber(&self, asked: TrailCamber) -> TrailCamber {
+        match self.camber {
+            Camber::Shift => TrailCamber::Signed,
+            Camber::Stiffness => asked,
+            Camber::Inside => TrailCamber::Magnitude,
+        }
     }
 
     /// Whether slip angle and camber enter as tangent and sine.

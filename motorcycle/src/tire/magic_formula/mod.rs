@@ -39,6 +39,8 @@ use super::shape::{cos_atan, length};
 use fit::Holding;
 use mbody::scalar::SystemScalar;
 use moments::Forces;
+use schemars::JsonSchema;
+use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// On which side of the vehicle a tire runs, against the side it was measured for.
@@ -63,6 +65,17 @@ pub enum FileAxes {
     AdaptedSae,
 }
 
+/// How camber changes the trail of 6.x tires: `1 + QDZ3 … + QDZ4 γ²`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TrailCamber {
+    /// By |γ*|, as the book prints it.
+    #[default]
+    Magnitude,
+    /// By γ with its sign, as the solver of the authors is reported to have it.
+    Signed,
+}
+
 /// How a set of coefficients is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Usage {
@@ -76,6 +89,8 @@ pub struct Usage {
     pub pressure: Option<f64>,
     /// How camber changes the peak of the side force of a motorcycle tire.
     pub camber_peak: CamberPeak,
+    /// How camber changes the trail of 6.x tires.
+    pub trail_camber: TrailCamber,
     /// The shape of the cross-section makes the overturning moment, so that the file's is not used.
     pub crowned: bool,
 }
@@ -103,6 +118,7 @@ pub struct MagicFormula {
     /// (p/p0)^QSY8.
     rolling_pressure: f64,
     camber_peak: CamberPeak,
+    trail_camber: TrailCamber,
     crowned: bool,
     /// Nominal load Fz0' = LFZO FNOMIN, N.
     nominal_load: f64,
@@ -132,7 +148,8 @@ pub(super) struct Operating<S> {
 impl MagicFormula {
     /// The law with these coefficients.
     pub fn new(coefficients: Coefficients, dialect: &'static Dialect, usage: Usage) -> Self {
-        let c = if usage.side == Side::Symmetric { coefficients.symmetric(dialect.bit) } else { coefficients };
+        let trail_camber = dialect.trail_camber(usage.trail_camber);
+        let c = if usage.side == Side::Symmetric { coefficients.symmetric(trail_camber) } else { coefficients };
         let mirrored = if usage.side == Side::Mirrored { -1.0 } else { 1.0 };
         let turned = if usage.axes == FileAxes::AdaptedSae { -1.0 } else { 1.0 };
         let signs = Signs { alpha: -mirrored, gamma: mirrored, fy: mirrored * turned, mx: mirrored, mz: mirrored * turned };
@@ -146,6 +163,7 @@ impl MagicFormula {
             pressure: if known { pressure / nominal_pressure - 1.0 } else { 0.0 },
             rolling_pressure: if known { (pressure / nominal_pressure).powf(c.QSY8) } else { 1.0 },
             camber_peak: usage.camber_peak,
+            trail_camber,
             crowned: usage.crowned,
             nominal_load: c.FNOMIN * c.LFZO,
             c,

@@ -9,8 +9,8 @@
 //! My = −R0 N [QSY1 + QSY2 Fx/Fz0 + QSY3 V/V0 + QSY4 (V/V0)⁴ + (QSY5 + QSY6 N/Fz0) γ²] (N/Fz0)^(QSY7 − 1) (p/p0)^QSY8
 //! ```
 //!
-//! R0 free radius, m; Fz0 nominal load, N; V speed, m/s; V0 LONGVL; p, p0 pressure; others as for the forces. The published text of the residual moment
-//! and of the trail differs between editions; the forms here are those that public programs report to agree with the solver of the authors.
+//! R0 free radius, m; Fz0 nominal load, N; V speed, m/s; V0 LONGVL; p, p0 pressure; others as for the forces. Dt has `1 + QDZ3 γ + QDZ4 γ²` in 5.2, and with
+//! |γ| for motorcycle tires. For 6.x the book has |γ*|; the solver of its authors is reported to have the signed γ ([`TrailCamber`]).
 //!
 //! Source: H. B. Pacejka, *Tire and Vehicle Dynamics*, 3rd ed., equations 4.E31 to 4.E49 and 4.E69 to 4.E78; 2nd ed., section 4.3.2; section 10.6.
 //! Range: that of the property file.
@@ -18,7 +18,7 @@
 use super::super::shape::{angle, cos_atan, length};
 use super::dialect::Camber;
 use super::planar::{Lateral, limited};
-use super::{MagicFormula, Operating};
+use super::{MagicFormula, Operating, TrailCamber};
 use mbody::scalar::Real;
 use mbody::scalar::smooth::ramp;
 use std::f64::consts::FRAC_2_PI;
@@ -48,8 +48,10 @@ impl MagicFormula {
     pub(super) fn aligning<S: Real>(&self, at: &Operating<S>, f: &Forces<'_, S>) -> S {
         let (c, d) = (&self.c, at.d);
         let motorcycle = self.dialect.camber == Camber::Inside;
-        // γ* and γ of 6.x; both γ LGAZ of the others
-        let (gs, g) = if self.dialect.starred() { (at.lateral_camber, at.camber) } else { (at.camber * c.LGAZ, at.camber * c.LGAZ) };
+        let gs = if self.dialect.starred() { at.lateral_camber } else { at.camber * c.LGAZ };
+        let signed = self.trail_camber == TrailCamber::Signed;
+        // the solver of 6.x takes γ itself in slope and peak of the trail
+        let g = if self.dialect.starred() && signed { at.camber } else { gs };
         let shift = (d * c.QHZ2 + c.QHZ1) * at.fade + (d * c.QHZ4 + c.QHZ3) * gs;
         let trail_slip = if motorcycle { at.alpha } else { at.alpha + shift };
         let residual_slip = at.alpha + if motorcycle { shift } else { f.lateral.residual_shift };
@@ -62,7 +64,7 @@ impl MagicFormula {
         let per_friction = c.LKY / c.LMUY;
 
         let bt = ((d * c.QBZ3 + c.QBZ2) * d + c.QBZ1) * (g * c.QBZ4 + g.abs() * c.QBZ5 + 1.0) * per_friction;
-        let of_camber = if motorcycle { g.abs() } else { g };
+        let of_camber = if signed { g } else { g.abs() };
         let dt = (d * c.QDZ2 + c.QDZ1) * (of_camber * c.QDZ3 + g * g * c.QDZ4 + 1.0) * at.ratio;
         let scale = (1.0 - c.PPZ1 * self.pressure) * c.UNLOADED_RADIUS * c.LTR * if self.dialect.starred() { c.LFZO } else { 1.0 };
         let sense = (bt * trail_slip * c.QCZ1).atan() * FRAC_2_PI;

@@ -114,7 +114,13 @@ impl Reading<'_> {
             FileAxes::AdaptedSae => (stiffness <= 0.0, "in the adapted SAE axes it is positive; leave out `axes: adapted_sae`"),
         };
         if wrong {
-            let kind = if stiffness == 0.0 { "zero" } else if stiffness > 0.0 { "positive" } else { "negative" };
+            let kind = if stiffness == 0.0 {
+                "zero"
+            } else if stiffness > 0.0 {
+                "positive"
+            } else {
+                "negative"
+            };
             let message = format!("the cornering stiffness at nominal load is {kind}: `PKY1` is {}", c.PKY1);
             self.at("PKY1", Finding::error("cornering_sign", message).with_hint(hint));
         }

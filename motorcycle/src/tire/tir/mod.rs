@@ -178,7 +178,8 @@ fn side(reading: &mut Reading<'_>) -> TireSide {
         Some("SYMMETRIC") => TireSide::Symmetric,
         Some(other) => {
             let entry = reading.entry("TYRESIDE").cloned();
-            let finding = Finding::error("unknown_value", format!("unknown `TYRESIDE` `{other}`, expected one of `LEFT`, `RIGHT`, `SYMMETRIC`"));
+            let finding =
+                Finding::error("unknown_value", format!("unknown `TYRESIDE` `{other}`, expected one of `LEFT`, `RIGHT`, `SYMMETRIC`"));
             if let Some(entry) = entry {
                 reading.find(place(finding, reading.name, reading.text, &entry));
             }

@@ -7,8 +7,19 @@ use super::scan::{Entry, Scanned, Value};
 use crate::tire::magic_formula::{Measure, PRESSURE};
 use mbody::description::finding::{Finding, Findings, suggestion};
 
-const LENGTHS: &[(&str, f64)] =
-    &[("meter", 1.0), ("m", 1.0), ("mm", 1e-3), ("millimeter", 1e-3), ("cm", 1e-2), ("centimeter", 1e-2), ("km", 1e3), ("inch", 0.0254), ("in", 0.0254), ("foot", 0.3048), ("ft", 0.3048)];
+const LENGTHS: &[(&str, f64)] = &[
+    ("meter", 1.0),
+    ("m", 1.0),
+    ("mm", 1e-3),
+    ("millimeter", 1e-3),
+    ("cm", 1e-2),
+    ("centimeter", 1e-2),
+    ("km", 1e3),
+    ("inch", 0.0254),
+    ("in", 0.0254),
+    ("foot", 0.3048),
+    ("ft", 0.3048),
+];
 const FORCES: &[(&str, f64)] = &[
     ("newton", 1.0),
     ("n", 1.0),
@@ -28,10 +39,29 @@ const ANGLES: &[(&str, f64)] = &[
     ("degrees", std::f64::consts::PI / 180.0),
     ("deg", std::f64::consts::PI / 180.0),
 ];
-const TIMES: &[(&str, f64)] =
-    &[("second", 1.0), ("sec", 1.0), ("s", 1.0), ("millisecond", 1e-3), ("ms", 1e-3), ("minute", 60.0), ("min", 60.0), ("hour", 3600.0), ("h", 3600.0)];
-const MASSES: &[(&str, f64)] = &[("kg", 1.0), ("kilogram", 1.0), ("gram", 1e-3), ("g", 1e-3), ("pound_mass", 0.453_592_37), ("lbm", 0.453_592_37), ("slug", 14.593_903), ("tonne", 1e3)];
-const PRESSURES: &[(&str, f64)] = &[("pascal", 1.0), ("pa", 1.0), ("kpa", 1e3), ("kilopascal", 1e3), ("bar", 1e5), ("psi", 6894.757_293_168), ("mpa", 1e6)];
+const TIMES: &[(&str, f64)] = &[
+    ("second", 1.0),
+    ("sec", 1.0),
+    ("s", 1.0),
+    ("millisecond", 1e-3),
+    ("ms", 1e-3),
+    ("minute", 60.0),
+    ("min", 60.0),
+    ("hour", 3600.0),
+    ("h", 3600.0),
+];
+const MASSES: &[(&str, f64)] = &[
+    ("kg", 1.0),
+    ("kilogram", 1.0),
+    ("gram", 1e-3),
+    ("g", 1e-3),
+    ("pound_mass", 0.453_592_37),
+    ("lbm", 0.453_592_37),
+    ("slug", 14.593_903),
+    ("tonne", 1e3),
+];
+const PRESSURES: &[(&str, f64)] =
+    &[("pascal", 1.0), ("pa", 1.0), ("kpa", 1e3), ("kilopascal", 1e3), ("bar", 1e5), ("psi", 6894.757_293_168), ("mpa", 1e6)];
 
 /// Factors from the units of a file to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +79,8 @@ impl Units {
     pub fn of(name: &str, text: &str, scanned: &Scanned, findings: &mut Findings) -> Self {
         let mut units = Self { length: 1.0, force: 1.0, angle: 1.0, time: 1.0, pressure: None };
         if !scanned.sections.iter().any(|(section, _)| section == "UNITS") {
-            let finding = Finding::warning("missing_section", "section `[UNITS]` is missing; meters, newtons, radians and seconds are taken");
+            let finding =
+                Finding::warning("missing_section", "section `[UNITS]` is missing; meters, newtons, radians and seconds are taken");
             findings.push(finding.in_file(name));
         }
         for entry in scanned.entries.iter().filter(|e| e.section == "UNITS") {
@@ -76,7 +107,8 @@ impl Units {
                 Some((_, factor)) => *unit = *factor,
                 None => {
                     let finding = Finding::error("unknown_unit", format!("unknown unit `{written}` for `{}`", entry.key));
-                    findings.push(place(finding, name, text, entry).with_hint_from(suggestion(&written, known.iter().map(|(word, _)| *word))));
+                    findings
+                        .push(place(finding, name, text, entry).with_hint_from(suggestion(&written, known.iter().map(|(word, _)| *word))));
                 }
             }
         }
