@@ -15,7 +15,9 @@ use std::f64::consts::TAU;
 /// Points of a curve.
 const POINTS: u32 = 81;
 /// Directions of an envelope.
-const DIRECTIONS: u32 = 120;
+const DIRECTIONS: u32 = 180;
+/// Slips to either side among which its forces are looked for.
+const GRID: i32 = 60;
 
 /// A tire that was found.
 pub struct Found {
@@ -127,7 +129,7 @@ pub fn curves(law: &AnyTireLaw, span: &Span) -> Vec<TireCurve> {
             let along = |along, samples| TireCurve { along, load, camber, samples };
             curves.push(along(Along::LongitudinalSlip, steps(span.slip).map(|s| sample(load, [s, 0.0, camber])).collect()));
             curves.push(along(Along::SlipAngle, steps(span.slip_angle).map(|a| sample(load, [0.0, a, camber])).collect()));
-            curves.push(along(Along::Envelope, envelope(span, &|at: [f64; 2]| sample(load, [at[0], at[1], camber]))));
+            curves.push(along(Along::Envelope, envelope(span, &|[slip, angle]| sample(load, [slip, angle, camber]))));
         }
         let samples = steps(span.camber).map(|g| sample(load, [0.0, 0.0, g])).collect();
         curves.push(TireCurve { along: Along::Camber, load, camber: 0.0, samples });
@@ -135,14 +137,15 @@ pub fn curves(law: &AnyTireLaw, span: &Span) -> Vec<TireCurve> {
     curves
 }
 
-/// The greatest force along every direction of slip, within the spans of the slips.
+/// The greatest force in every direction, among slips within their spans: the convex hull of all forces.
 fn envelope(span: &Span, sample: &dyn Fn([f64; 2]) -> Sample) -> Vec<Sample> {
-    let size = |s: &Sample| s.friction.longitudinal.hypot(s.friction.lateral);
-    let greatest = |angle: f64| {
-        let (sin, cos) = angle.sin_cos();
-        let of = |k: u32| f64::from(k) / 40.0;
-        let all = (1..=40).map(|k| sample([span.slip * cos * of(k), span.slip_angle * sin * of(k)]));
-        all.max_by(|a, b| size(a).total_cmp(&size(b)))
+    // closer together where the forces grow
+    let steps = |largest: f64| (-GRID..=GRID).map(move |k| f64::from(k) / f64::from(GRID)).map(move |q| largest * q * q.abs());
+    let all: Vec<Sample> = steps(span.slip).flat_map(|slip| steps(span.slip_angle).map(move |angle| [slip, angle])).map(sample).collect();
+    let greatest = |direction: f64| {
+        let (sin, cos) = direction.sin_cos();
+        let along = |s: &Sample| s.friction.longitudinal * cos + s.friction.lateral * sin;
+        all.iter().max_by(|a, b| along(a).total_cmp(&along(b))).copied()
     };
     (0..=DIRECTIONS).filter_map(|k| greatest(TAU * f64::from(k) / f64::from(DIRECTIONS))).collect()
 }

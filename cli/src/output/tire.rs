@@ -16,7 +16,7 @@ pub enum Along {
     SlipAngle,
     /// Camber without slip.
     Camber,
-    /// The greatest forces in every direction of the road.
+    /// The greatest forces in every direction of the road: the convex hull of all forces at slips within their spans.
     Envelope,
 }
 

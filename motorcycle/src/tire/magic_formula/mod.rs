@@ -29,7 +29,7 @@ mod relaxation;
 #[cfg(test)]
 mod tests;
 
-pub use coefficients::{ASYMMETRIC, Coefficients, Dialects, KEYS, Key, Measure, PRESSURE, WITHOUT_EFFECT};
+pub use coefficients::{ASYMMETRIC, Coefficients, Dialects, KEYS, Key, Measure, PRESSURE};
 pub use dialect::{Camber, DIALECTS, Dialect};
 pub use fit::BeyondFit;
 

@@ -1,6 +1,6 @@
 //! What of a property file cannot be, or is not likely to be meant.
 
-use super::scan::{Entry, Scanned};
+use super::scan::{Entry, Scanned, Value};
 use super::units::place;
 use crate::tire::magic_formula::{Coefficients, Dialect, FileAxes, Key};
 use mbody::description::finding::{Finding, Findings};
@@ -50,7 +50,8 @@ impl Reading<'_> {
 
     /// Signs, ranges, magnitudes.
     pub fn plausible(&mut self, c: &Coefficients, dialect: &Dialect, axes: FileAxes) {
-        let present = |reading: &Self, key: &str| reading.scanned.entries.iter().any(|e| e.key == key);
+        let present =
+            |reading: &Self, key: &str| reading.scanned.entries.iter().any(|e| e.key == key && matches!(e.value, Value::Number(_)));
         let positive = [
             ("UNLOADED_RADIUS", c.UNLOADED_RADIUS),
             ("FNOMIN", c.FNOMIN),

@@ -7,6 +7,7 @@
 mod check;
 mod scan;
 mod units;
+mod without_effect;
 
 #[cfg(test)]
 mod tests;
@@ -14,10 +15,11 @@ mod tests;
 pub use scan::{Entry, Scanned, Table, Value};
 pub use units::Units;
 
-use super::magic_formula::{Coefficients, DIALECTS, Dialect, FileAxes, KEYS, Key, WITHOUT_EFFECT};
+use super::magic_formula::{Coefficients, DIALECTS, Dialect, FileAxes, KEYS, Key};
 use check::Reading;
 use mbody::description::finding::{Finding, Findings, suggestion};
 use units::place;
+use without_effect::without_effect;
 
 /// The side that a tire was measured for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -102,7 +104,7 @@ impl Reading<'_> {
             match KEYS.iter().find(|k| k.name == entry.key) {
                 Some(key) if key.used & dialect.bit == 0 && !is_neutral(key, &entry.value) => of_others.push(entry),
                 Some(_) => {}
-                None if WITHOUT_EFFECT.contains(&entry.key.as_str()) || entry.section.is_empty() => {}
+                None if without_effect(&entry.key) => {}
                 // headings of the maker carry names and dates
                 None if matches!(entry.value, Value::Text(_)) => {}
                 None => {

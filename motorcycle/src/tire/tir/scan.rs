@@ -106,7 +106,8 @@ pub fn scan(name: &str, text: &str, findings: &mut Findings) -> Scanned {
     let mut section = String::new();
     let mut in_table = false;
     for (k, whole) in text.lines().enumerate() {
-        let line = without_remark(whole);
+        // some editors begin a file with a mark of its encoding
+        let line = without_remark(whole.trim_start_matches('\u{feff}'));
         let content = line.trim();
         let column = |part: &str| 1 + whole[..part.as_ptr() as usize - whole.as_ptr() as usize].chars().count();
         let mut refuse = |message: String, part: &str| {
