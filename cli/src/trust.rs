@@ -21,7 +21,7 @@ pub fn left<'a, V: Iterator<Item = f64>>(system: &System, signals: &[Signal], co
         }
         let Some(farthest) = farthest else { continue };
         let shown = Angles::Degrees.show(&signals[at].unit);
-        let number = |value: f64| format!("{:.4}", value * shown.factor).trim_end_matches('0').trim_end_matches('.').to_owned();
+        let number = |value: f64| short(value * shown.factor);
         let unit = if shown.unit == "-" { String::new() } else { format!(" {}", shown.unit) };
         let how_often = if all > 1 { format!(" at {outside} of {all} points, farthest at") } else { " at".to_owned() };
         told.push(format!(
@@ -34,4 +34,9 @@ pub fn left<'a, V: Iterator<Item = f64>>(system: &System, signals: &[Signal], co
         ));
     }
     told
+}
+
+/// A number with at most four digits behind the point.
+pub fn short(value: f64) -> String {
+    format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }

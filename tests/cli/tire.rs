@@ -53,7 +53,7 @@ fn formats_and_figure() {
 #[test]
 fn wrong_input_is_told() {
     for (arguments, words) in [
-        (&["tire", "ref11", "--tire", "front_tyre"][..], "did you mean `front_tire`"),
+        (&["tire", "ref11", "--tire", "front_tir"][..], "did you mean `front_tire`"),
         (&["tire", "pendulum"], "no element of the kind `tire`"),
         (&["tire", "nothing.tir"], "was not found"),
         (&["tire", "ref11", "--load", "3m"], "a force"),

@@ -5,6 +5,7 @@ use crate::arguments::{ModelArguments, OutputArguments, argument, sweep};
 use crate::figures;
 use crate::output::tire::TireCurves;
 use crate::tire::{self, Span};
+use crate::trust::short;
 use crate::{Context, Exit, Failure, results};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Severity;
@@ -129,8 +130,8 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
 
 /// What lies outside the range of the measurement.
 fn beyond(what: &str, values: &[f64], [low, high]: [f64; 2], factor: f64, unit: &str) -> Option<String> {
-    let outside: Vec<String> = values.iter().filter(|v| **v < low || **v > high).map(|v| format!("{:.4}", v * factor)).collect();
+    let outside: Vec<String> = values.iter().filter(|v| **v < low || **v > high).map(|v| short(v * factor)).collect();
     let listed = outside.join(", ");
-    let range = format!("{:.4} to {:.4} {unit}", low * factor, high * factor);
+    let range = format!("{} to {} {unit}", short(low * factor), short(high * factor));
     (!outside.is_empty()).then(|| format!("{what} {listed} {unit} is outside the measurements of the tire, {range}"))
 }

@@ -3,7 +3,7 @@
 //! One table serves all dialects: which of them uses a coefficient, which needs it, and what holds where a file leaves it out.
 //! In the descriptions d is the relative deviation of the load from the nominal load, p that of the pressure, γ the camber.
 //!
-//! Source: lists of keys in the manuals of MF-Tyre 5.2, MF-MCTyre 1.x and MF-Tyre 6.x as public programs reproduce them;
+//! Source: lists of keys in the manuals of MF 5.2, of its motorcycle version and of 6.x as public programs reproduce them;
 //! meaning after H. B. Pacejka, *Tire and Vehicle Dynamics*, chapter 4 and section 10.6.
 
 use super::TrailCamber;
@@ -11,13 +11,13 @@ use super::TrailCamber;
 /// A set of dialects, one bit each.
 pub type Dialects = u8;
 
-/// MF-Tyre 5.2 and PAC2002.
+/// MF 5.2 and PAC2002.
 pub const MF52: Dialects = 1;
-/// MF-MCTyre and PAC_MC.
+/// PAC_MC and its predecessors for motorcycles.
 pub const MC: Dialects = 2;
-/// MF-Tyre 6.1.
+/// MF 6.1.
 pub const MF61: Dialects = 4;
-/// MF-Tyre 6.2.
+/// MF 6.2.
 pub const MF62: Dialects = 8;
 const NONE: Dialects = 0;
 const ALL: Dialects = MF52 | MC | MF61 | MF62;

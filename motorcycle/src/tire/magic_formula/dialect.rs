@@ -35,12 +35,12 @@ pub const DIALECTS: &[Dialect] = &[
         name: "MF 5.2",
         bit: MF52,
         fit_types: &[5.0, 6.0, 21.0, 52.0],
-        formats: &["PAC2002", "MF_05", "MF05", "MF52", "MF_TYRE"],
+        formats: &["PAC2002", "MF_05", "MF05", "MF52"],
         camber: Camber::Shift,
     },
     Dialect { name: "PAC_MC", bit: MC, fit_types: &[], formats: &["PAC_MC", "PACMC", "MF_MCTYRE", "MCTYRE"], camber: Camber::Inside },
-    Dialect { name: "MF 6.1", bit: MF61, fit_types: &[60.0, 61.0], formats: &["MF61", "MF_61", "MF_TYRE61"], camber: Camber::Stiffness },
-    Dialect { name: "MF 6.2", bit: MF62, fit_types: &[62.0], formats: &["MF62", "MF_62", "MF_TYRE62"], camber: Camber::Stiffness },
+    Dialect { name: "MF 6.1", bit: MF61, fit_types: &[60.0, 61.0], formats: &["MF61", "MF_61"], camber: Camber::Stiffness },
+    Dialect { name: "MF 6.2", bit: MF62, fit_types: &[62.0], formats: &["MF62", "MF_62"], camber: Camber::Stiffness },
 ];
 
 impl Dialect {

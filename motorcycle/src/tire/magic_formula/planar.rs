@@ -14,7 +14,7 @@
 //! multiplies a cubic term: the curve is twice differentiable there. |γ| in Ky has the derivative 0 at 0.
 //!
 //! Source: H. B. Pacejka, *Tire and Vehicle Dynamics*, 3rd ed., equations 4.E9 to 4.E67 (6.x), 2nd ed., section 4.3.2 (5.2), section 10.6 (motorcycle). That
-//! κ = 0 is free rolling for motorcycle tires (SHx) is reported of MF-MCTyre; nobody here has read its manual.
+//! κ = 0 is free rolling for motorcycle tires (SHx) is reported of the solver for motorcycles; nobody here has read its manual.
 //! Range: that of the property file.
 
 use super::super::magic_formula_motorcycle::CamberPeak;

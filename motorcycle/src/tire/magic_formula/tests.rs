@@ -158,7 +158,8 @@ fn a_tire_on_the_other_side_is_the_mirror_image() {
 #[test]
 fn axes_of_the_file_do_not_matter() {
     for (name, own) in OWN {
-        let positive = own.replace("PKY1 = -", "PKY1 = ").replace("PKY6 = -", "PKY6 = ").replace("PVY3 = -", "PVY3 = ");
+        let positive =
+            own.replace("PKY1 = -", "PKY1 = ").replace("PKY6 = -", "PKY6 = ").replace("PVY3 = -", "PVY3 = ").replace("PKY7 = ", "PKY7 = -");
         let there = law_of(&positive, Usage { axes: FileAxes::AdaptedSae, ..Usage::default() });
         let here = law_of(own, Usage::default());
         let (a, b) = (there.friction(&slip(0.05, 0.0, 0.0)), here.friction(&slip(0.05, 0.0, 0.0)));
