@@ -114,6 +114,11 @@ impl Reading<'_> {
                 }
             }
         }
+        let turning = |e: &&Entry| e.section.starts_with("TURNSLIP") && e.value != Value::Number(0.0);
+        if let Some(first) = self.scanned.entries.iter().find(turning) {
+            let finding = Finding::note("turn_slip", "turn slip has no effect: forces are those of a straight path at every instant");
+            self.findings.push(place(finding, self.name, self.text, first));
+        }
         if let [first, ..] = of_others[..] {
             let names: Vec<String> = of_others.iter().map(|e| format!("`{}`", e.key)).collect();
             let message = format!("{} {} no effect in {}", names.join(", "), if names.len() == 1 { "has" } else { "have" }, dialect.name);

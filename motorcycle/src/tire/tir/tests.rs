@@ -114,6 +114,13 @@ fn suspicious_files_are_warned_of_and_read() {
 }
 
 #[test]
+fn turn_slip_is_told_to_have_no_effect() {
+    let (file, findings) = read_it(&format!("{FILE}[TURNSLIP_COEFFICIENTS]\nPDXP1 = 0.4\nPDXP2 = 0\n"));
+    assert!(file.is_some() && codes(&findings) == [("turn_slip", Some(36))], "{findings}");
+    assert!(findings.iter().all(|f| f.severity == Severity::Note));
+}
+
+#[test]
 fn the_sign_of_the_cornering_stiffness_tells_the_axes() {
     let positive = FILE.replace("PKY1 = -20", "PKY1 = 20");
     let (file, findings) = read_it(&positive);

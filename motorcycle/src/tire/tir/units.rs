@@ -61,7 +61,7 @@ const MASSES: &[(&str, f64)] = &[
     ("tonne", 1e3),
 ];
 const PRESSURES: &[(&str, f64)] =
-    &[("pascal", 1.0), ("pa", 1.0), ("kpa", 1e3), ("kilopascal", 1e3), ("bar", 1e5), ("psi", 6894.757_293_168), ("mpa", 1e6)];
+    &[("pascal", 1.0), ("pa", 1.0), ("kpa", 1e3), ("kilopascal", 1e3), ("bar", 1e5), ("psi", 6_894.757_293_168), ("mpa", 1e6)];
 
 /// Factors from the units of a file to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
