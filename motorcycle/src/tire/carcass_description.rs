@@ -115,7 +115,7 @@ pub enum RelaxationDescription {
     Force(ForceLagDescription),
     /// By a lag of the side force except what camber alone produces.
     ForceWithoutCamber(ForceLagDescription),
-    /// By a lag of both slips over the lengths of the tire property file.
+    /// By a lag of both slips over the lengths of the tire property file, where it has them.
     OfFile,
 }
 
@@ -161,8 +161,13 @@ impl LengthDescription {
 
 /// The carcass of a description.
 ///
-/// `file`: whether the law comes from a property file.
-pub(super) fn carcass(description: CarcassDescription, wheel: Option<&Wheel>, file: bool, site: &mut Site<'_>) -> Option<Carcass> {
+/// `file`: the property file that the law comes from.
+pub(super) fn carcass(
+    description: CarcassDescription,
+    wheel: Option<&Wheel>,
+    file: Option<&PropertyFile>,
+    site: &mut Site<'_>,
+) -> Option<Carcass> {
     match description {
         CarcassDescription::Deformable(c) => {
             let longitudinal = c.longitudinal.map(ElasticDescription::elastic);
@@ -209,27 +214,35 @@ pub(super) fn carcass_of_file(file: &PropertyFile, pressure: Option<f64>, site: 
     Some(Carcass::Vertical(Vertical {
         normal: Elastic { stiffness: square.sqrt() * load / radius * inflated, damping: c.VERTICAL_DAMPING },
         quadratic: c.Q_FZ2 * load / (radius * radius) * inflated,
-        relaxation: OF_FILE,
+        relaxation: relaxation_of_file(file),
     }))
 }
 
-/// Lag of both slips over the lengths of the law.
-const OF_FILE: Relaxation =
-    Relaxation::Slip { lateral: RelaxationLength::LateralOfLaw, longitudinal: Some(RelaxationLength::LongitudinalOfLaw) };
+/// Lag of slips over the lengths of the law, where the file has them; at once where it has none.
+fn relaxation_of_file(file: &PropertyFile) -> Relaxation {
+    let c = &file.coefficients;
+    let longitudinal = (c.PTX1 != 0.0 || c.LONGITUDINAL_STIFFNESS > 0.0).then_some(RelaxationLength::LongitudinalOfLaw);
+    match c.PTY1 != 0.0 || c.LATERAL_STIFFNESS > 0.0 {
+        true => Relaxation::Slip { lateral: RelaxationLength::LateralOfLaw, longitudinal },
+        false => Relaxation::None,
+    }
+}
 
-fn relaxation(key: &str, description: RelaxationDescription, file: bool, site: &mut Site<'_>) -> Option<Relaxation> {
+fn relaxation(key: &str, description: RelaxationDescription, file: Option<&PropertyFile>, site: &mut Site<'_>) -> Option<Relaxation> {
     let relaxation = match description {
         RelaxationDescription::None => Relaxation::None,
         RelaxationDescription::Elastic(spring) => Relaxation::Elastic(spring.elastic()),
         RelaxationDescription::Slip(lag) => {
             Relaxation::Slip { lateral: lag.length.length(), longitudinal: lag.longitudinal_length.map(LengthDescription::length) }
         }
-        RelaxationDescription::OfFile if !file => {
-            let finding = Finding::error("contradictory_entries", "relaxation lengths `of_file` need a law from a tire property file");
-            site.find(key, finding.with_hint("give lengths: `relaxation: { slip: { length: { constant: 0.15 m } } }`"));
-            return None;
-        }
-        RelaxationDescription::OfFile => OF_FILE,
+        RelaxationDescription::OfFile => match file {
+            Some(file) => relaxation_of_file(file),
+            None => {
+                let finding = Finding::error("contradictory_entries", "relaxation lengths `of_file` need a law from a tire property file");
+                site.find(key, finding.with_hint("give lengths: `relaxation: { slip: { length: { constant: 0.15 m } } }`"));
+                return None;
+            }
+        },
         RelaxationDescription::Force(lag) => Relaxation::Force(lag.length.length()),
         RelaxationDescription::ForceWithoutCamber(lag) => Relaxation::ForceWithoutCamber(lag.length.length()),
     };

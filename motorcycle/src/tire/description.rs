@@ -161,7 +161,7 @@ impl ElementDescription for TireDescription {
             wheel.road = None;
         }
         let carcass = match (self.carcass, file) {
-            (Some(written), _) => carcass(written, wheel.as_ref(), file.is_some(), site),
+            (Some(written), _) => carcass(written, wheel.as_ref(), file, site),
             (None, Some(file)) => carcass_of_file(file, self.pressure.map(Quantity::si), site),
             (None, None) => None,
         };

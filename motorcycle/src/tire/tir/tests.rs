@@ -57,7 +57,7 @@ fn units_sides_tables_and_remarks_are_read() {
     let c = &file.coefficients;
     assert_eq!((file.dialect.name, file.side), ("MF 5.2", TireSide::Right));
     assert!((c.UNLOADED_RADIUS - 0.3).abs() < 1e-12 && (c.FNOMIN - 300.0 * 4.448_221_615_260_5).abs() < 1e-9);
-    assert!((c.VERTICAL_STIFFNESS - 34.0 * 4448.221_615_260_5).abs() < 1e-6 && (c.LONGVL - 16.7).abs() < 1e-12);
+    assert!((c.VERTICAL_STIFFNESS - 34.0 * 4_448.221_615_260_5).abs() < 1e-6 && (c.LONGVL - 16.7).abs() < 1e-12);
     assert!((c.CAMMAX - 10f64.to_radians()).abs() < 1e-15);
     // coefficients have no units; what is left out is neutral
     assert_eq!((c.PKY1, c.LMUX, c.PHY1), (-20.0, 1.0, 0.0));
