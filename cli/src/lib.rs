@@ -30,6 +30,8 @@ mod road;
 pub mod sensitivities;
 pub mod small_motions;
 pub mod steady;
+mod tire;
+mod trust;
 
 use console::{Captured, Console};
 use mbody::assembly::Kinds;

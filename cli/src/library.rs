@@ -67,6 +67,25 @@ pub fn maneuver(name: &str) -> Result<Source, Findings> {
     Err(finding.with_hint_from(suggestion(name, known.iter().copied())).into())
 }
 
+/// Names of all bundled tires.
+pub fn bundled_tires() -> Vec<&'static str> {
+    BUNDLED.iter().filter_map(|(path, _)| Some(path.strip_prefix("tires/")?.rsplit_once('.')?.0)).collect()
+}
+
+/// A tire by itself: the path of a tire property file, or the name of a bundled tire; none where `name` looks like neither.
+///
+/// # Errors
+/// There is no such file.
+pub fn tire(name: &str) -> Result<Option<Source>, Findings> {
+    let path = Path::new(name);
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("tir")) {
+        readable(path, name)?;
+        return Ok(Some(Source::on_disk(path)));
+    }
+    let found = ["yaml", "tir"].map(|e| format!("{name}.{e}")).into_iter().find(|file| bundled(&format!("tires/{file}")).is_some());
+    Ok(found.map(|file| Source { file, name: name.to_owned(), folder: None, bundled: "tires".to_owned() }))
+}
+
 impl Source {
     /// The model a user asked for: a bundled name, or a path that ends in `.yaml`, `.yml` or `.urdf`.
     pub fn find(model: &str) -> Result<Self, Findings> {

@@ -4,7 +4,7 @@ use crate::arguments::unknown_name;
 use crate::backend::AlgebraicBackend;
 use crate::output::{Given, Point, Progress};
 use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
-use crate::{Failure, backend};
+use crate::{Failure, backend, trust};
 use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};
 use problem::{AlgebraicMethod, Ending, Plant, Signal};
@@ -81,7 +81,9 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
                 .to_owned(),
         );
     }
-    Ok(Steady { given, signals: signals(&plant), points, limits, warnings })
+    let signals = signals(&plant);
+    warnings.extend(trust::left(system, &signals, |k| points.iter().map(move |p| p.values.get(k).copied().unwrap_or(f64::NAN))));
+    Ok(Steady { given, signals, points, limits, warnings })
 }
 
 fn grid(request: &Request) -> Vec<Goal> {

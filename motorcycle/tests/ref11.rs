@@ -14,7 +14,7 @@ use motorcycle::tire::compact_motorcycle::{
     AligningShape, CompactMotorcycleParameters, LateralShape, LoadDependence::Constant, LongitudinalShape,
 };
 use motorcycle::tire::rolling_resistance::RollingResistance;
-use motorcycle::tire::{AnyTireLaw, Carcass, Deformable, Elastic, RoadContact, Tire, Wheel};
+use motorcycle::tire::{AnyTireLaw, Carcass, Deformable, EffectiveRadius, Elastic, RoadContact, Tire, Wheel};
 use problem::{Dae, Seeds};
 use rig::{Rig, Slot, vehicle};
 
@@ -137,7 +137,7 @@ fn tire(model: &Model, end: &End) -> Tire {
         law: AnyTireLaw::new(law.law().expect("a law")),
         contact: RoadContact::Bonded,
         rolling_resistance: RollingResistance::Constant(0.010),
-        effective_radius_fraction: 1.0 / 3.0,
+        effective_radius: EffectiveRadius::Fraction(1.0 / 3.0),
         low_speed: 0.1,
     }
 }

@@ -12,7 +12,8 @@ use motorcycle::tire::compact_motorcycle::{
 use motorcycle::tire::linear_normalized::LinearNormalizedParameters;
 use motorcycle::tire::rolling_resistance::RollingResistance;
 use motorcycle::tire::{
-    AnyTireLaw, Carcass, Deformable, Elastic, Relaxation, RelaxationLength, RoadContact, ThinDiscLinear, Tire, Vertical, Wheel,
+    AnyTireLaw, Carcass, Deformable, EffectiveRadius, Elastic, Relaxation, RelaxationLength, RoadContact, ThinDiscLinear, Tire, Vertical,
+    Wheel,
 };
 use problem::{At, Dae, Limits, Outputs, Seeds};
 use rig::{Rig, vehicle};
@@ -92,7 +93,7 @@ fn bench(carcass: Carcass, change: impl Fn(&mut Tire)) -> Rig {
         law: law(),
         contact: RoadContact::Lifting,
         rolling_resistance: RollingResistance::SHARP_1994,
-        effective_radius_fraction: 1.0 / 3.0,
+        effective_radius: EffectiveRadius::Fraction(1.0 / 3.0),
         low_speed: 0.1,
     };
     change(&mut tire);

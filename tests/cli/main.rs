@@ -18,6 +18,7 @@ mod rider;
 mod run;
 mod schema;
 mod slalom;
+mod tire;
 mod trim;
 
 use fastbike::console::Captured;

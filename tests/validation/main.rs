@@ -17,6 +17,7 @@ mod rides;
 mod rolling_disc;
 mod sel04;
 mod sharp1971;
+mod tire_property_files;
 mod trends;
 
 use validation::evidence;
@@ -36,6 +37,7 @@ fn the_table_of_evidence_is_up_to_date() {
             &gsxr1000_acceleration::EVIDENCE,
             &sharp1971::EVIDENCE,
             &trends::EVIDENCE,
+            &tire_property_files::EVIDENCE,
             &rides::EVIDENCE,
         ])
         .copied()

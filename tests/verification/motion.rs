@@ -21,6 +21,7 @@ impl Library for Texts {
         Some(match name {
             "tree.urdf" => Cow::Borrowed(self.tree),
             "example.yaml" => Cow::Borrowed(&self.description),
+            file if file.ends_with(".tir") => Cow::Owned(repository_text(&format!("tests/reference/tire/{file}"))),
             tire => Cow::Owned(repository_text(&format!("models/tires/{tire}"))),
         })
     }
@@ -67,6 +68,16 @@ pub struct Example {
     bare: Arc<System>,
 }
 
+/// Elements beside the examples: what the shortest written form of a kind leaves to a file.
+const BESIDE: [(&str, &str); 2] = [
+    ("tire", "{ wheel: front_axle, law: { tir: mf61_example.tir }, road: front_road }"),
+    (
+        "tire",
+        "{ wheel: front_axle, radius: 0.3 m, crown: { torus: { radius: 60 mm } }, law: { tir: { file: mf52_example.tir, beyond_fit: extrapolate } }, \
+         carcass: { deformable: { radial: { stiffness: 150 kN/m, damping: 300 N s/m }, lateral: { stiffness: 160 kN/m, damping: 100 N s/m } } } }",
+    ),
+];
+
 /// The examples of all kinds, assembled once.
 pub fn examples() -> &'static [Example] {
     static EXAMPLES: LazyLock<Vec<Example>> = LazyLock::new(|| {
@@ -74,12 +85,15 @@ pub fn examples() -> &'static [Example] {
             let (assembled, findings) = on_tree(kind, elements);
             assembled.unwrap_or_else(|| panic!("{}: {findings}", kind.name)).system
         };
-        let example = |kind: &ElementKind| Example {
-            system: assembled(kind, &format!("{{ example: {{ {}: {} }} }}", kind.name, kind.example)),
+        let example = |kind: &ElementKind, written: &str| Example {
+            system: assembled(kind, &format!("{{ example: {{ {}: {written} }} }}", kind.name)),
             bare: assembled(kind, "{}"),
             kind: *kind,
         };
-        fastbike::standard_kinds().elements().iter().map(example).collect()
+        let kinds = fastbike::standard_kinds();
+        let kind = |name: &str| kinds.elements().iter().find(|k| k.name == name).expect("a kind");
+        let beside = BESIDE.iter().map(|(name, written)| example(kind(name), written));
+        kinds.elements().iter().map(|kind| example(kind, kind.example)).chain(beside).collect()
     });
     &EXAMPLES
 }

@@ -14,6 +14,7 @@ mod rider;
 mod run;
 mod schema;
 mod slalom;
+mod tire;
 mod trim;
 
 use crate::{Context, Exit, Failure};
@@ -42,6 +43,7 @@ pub const KINDS: &[Kind] = &[
     rider::KIND,
     run::KIND,
     compare::KIND,
+    tire::KIND,
     info::KIND,
     check::KIND,
     dynamics::KIND,

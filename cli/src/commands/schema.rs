@@ -1,4 +1,4 @@
-//! `schema`: the JSON Schema of descriptions and of maneuvers, for editors.
+//! `schema`: the JSON Schema of descriptions, of maneuvers and of tire laws, for editors.
 
 use super::{Kind, read};
 use crate::{Context, Exit, Failure};
@@ -12,15 +12,22 @@ struct Arguments {
     /// The schema of maneuvers instead of that of descriptions
     #[arg(long)]
     maneuver: bool,
+    /// The schema of tire law files instead of that of descriptions
+    #[arg(long, conflicts_with = "maneuver")]
+    tire: bool,
 }
 
 fn command(command: Command) -> Command {
-    Arguments::augment_args(command).about("Print the JSON Schema of descriptions or of maneuvers, for editors")
+    Arguments::augment_args(command).about("Print the JSON Schema of descriptions, of maneuvers or of tire laws, for editors")
 }
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
-    let schema = if arguments.maneuver { motorcycle::maneuver::schema() } else { mbody::assembly::schema(&context.kinds) };
+    let schema = match (arguments.maneuver, arguments.tire) {
+        (true, _) => motorcycle::maneuver::schema(),
+        (_, true) => motorcycle::tire::law_description::schema(),
+        _ => mbody::assembly::schema(&context.kinds),
+    };
     context.console.print(format!("{schema:#}\n").as_bytes())?;
     Ok(Exit::Done)
 }

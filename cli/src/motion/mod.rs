@@ -13,6 +13,7 @@ use crate::interrupt::Interrupt;
 use crate::maneuver::Ride;
 use crate::output::{History, Outcome, Progress, small};
 use crate::plan;
+use crate::trust;
 pub use account::{DISSIPATED, ENERGY, SUPPLIED};
 use analyses::transient::{Cause, Method, Simulation, Start, Trajectory, Transient, TransientEnding, TransientError};
 use analyses::{ClosedLoop, Variable, Variables};
@@ -150,6 +151,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         signals.insert(at, account::signals()[which].clone());
         columns.insert(at, accounts.columns[which].clone());
     }
+    warnings.extend(trust::left(system, &signals, |k| columns[k].iter().copied()));
     let (condition, because) = told(&simulation.ending, &transient.ends);
     let shown = if request.record.is_empty() { shown(&signals, &plant) } else { (0..signals.len()).collect() };
     Ok(History {

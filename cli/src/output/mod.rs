@@ -26,6 +26,7 @@ pub mod rider;
 #[cfg(test)]
 mod sample;
 mod table;
+pub mod tire;
 mod units;
 mod versus;
 
@@ -51,6 +52,8 @@ pub struct Kind {
     pub write_history: Writer<History>,
     /// Writes a comparison of methods.
     pub write_comparison: Writer<comparison::Comparison>,
+    /// Writes the curves of a tire.
+    pub write_tire: Writer<tire::TireCurves>,
 }
 
 /// Writes a result in one format.

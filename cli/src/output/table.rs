@@ -4,7 +4,7 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Beside, Point, Report};
-use super::{Angles, Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, versus};
+use super::{Angles, Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, tire, versus};
 use problem::Ending;
 use std::io;
 
@@ -14,6 +14,7 @@ pub(super) const KIND: Kind = Kind {
     write,
     write_history: history::table::write,
     write_comparison: comparison::write_table,
+    write_tire: tire::write_table,
 };
 
 /// What a table of several points shows of the signals that exist, where the user does not choose.

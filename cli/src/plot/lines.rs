@@ -185,7 +185,7 @@ impl LinePanel {
     }
 
     /// Names of the curves, each once.
-    fn names(&self) -> Vec<&String> {
+    pub(super) fn names(&self) -> Vec<&String> {
         let mut names: Vec<&String> = Vec::new();
         for curve in &self.curves {
             if !names.contains(&&curve.name) {
@@ -195,7 +195,7 @@ impl LinePanel {
         names
     }
 
-    fn draw_curves(&self, canvas: &mut Canvas, panel: &Panel, (styles, variants): (usize, &[String])) {
+    pub(super) fn draw_curves(&self, canvas: &mut Canvas, panel: &Panel, (styles, variants): (usize, &[String])) {
         for (k, curve) in self.curves.iter().enumerate() {
             let pen = self.pen(k, (styles, variants));
             for run in runs(curve, panel) {

@@ -9,6 +9,7 @@ mod canvas;
 mod contour;
 mod contour_label;
 mod field;
+mod grid;
 mod legend;
 mod lines;
 mod panel;
@@ -21,6 +22,7 @@ mod text;
 pub use axis::{Axis, Scale};
 pub use bars::{BarPanel, Bars};
 pub use contour::{Contour, Node};
+pub use grid::{Grid, GridPanel};
 pub use lines::{Band, Curve, LinePanel, Lines, Markers};
 pub use phasors::{Phasor, PhasorPanel, Phasors};
 pub use root_locus::{Locus, RootLocus};
@@ -35,6 +37,8 @@ pub enum Figure {
     Contour(Contour),
     /// One or several quantities against another, in stacked panels.
     Lines(Lines),
+    /// Curves in panels beside and below each other, each with axes of its own.
+    Grid(Grid),
     /// Eigenvalues in the complex plane.
     RootLocus(RootLocus),
     /// Shapes of modes.
@@ -53,6 +57,7 @@ impl Figure {
         match self {
             Self::Contour(figure) => figure.draw(lettering),
             Self::Lines(figure) => figure.draw(lettering),
+            Self::Grid(figure) => figure.draw(lettering),
             Self::RootLocus(figure) => figure.draw(lettering),
             Self::Phasors(figure) => figure.draw(lettering),
             Self::Bars(figure) => figure.draw(lettering),

@@ -132,6 +132,16 @@ impl<'a> Site<'a> {
         self.design.X_WB[body.get()]
     }
 
+    /// Adds findings about another file, as they are.
+    pub fn pass_on(&mut self, findings: Findings) {
+        self.findings.extend(findings);
+    }
+
+    /// The texts that the description may refer to.
+    pub fn library(&self) -> &'a dyn Library {
+        self.library
+    }
+
     /// Text that the description refers to: a table, a data file.
     pub fn text(&mut self, key: &str, name: &str) -> Option<String> {
         let found = self.library.text(name).map(|t| t.into_owned());

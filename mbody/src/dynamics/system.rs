@@ -4,7 +4,7 @@
 
 use super::form::{Form, Formulation};
 use crate::constraint::{Constraint, Level};
-use crate::force::Force;
+use crate::force::{Force, RangeDeclared};
 use crate::model::Model;
 use problem::{Equation, EquationKind, Input, Limit, Signal, Unknown, UnknownKind};
 use std::collections::HashMap;
@@ -409,6 +409,11 @@ impl System {
     /// The elements, in the order of the description.
     pub fn elements(&self) -> &[Element] {
         &self.elements
+    }
+
+    /// Ranges of signals in which the elements can be trusted.
+    pub fn ranges(&self) -> impl Iterator<Item = &RangeDeclared> {
+        self.elements.iter().flat_map(|e| &e.force.declared().ranges)
     }
 
     /// Number of element states.

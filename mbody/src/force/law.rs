@@ -71,6 +71,17 @@ pub struct LimitDeclared {
     pub about: &'static str,
 }
 
+/// Within which values of a signal an element is what it says: no limit of the motion, but of the trust in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RangeDeclared {
+    /// Full name of the signal.
+    pub signal: String,
+    /// Lower and upper bound.
+    pub bounds: [f64; 2],
+    /// Whose range it is, as in "outside the range of …".
+    pub about: &'static str,
+}
+
 /// Everything an element announces when it is assembled.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Declared {
@@ -82,6 +93,8 @@ pub struct Declared {
     pub outputs: Vec<OutputDeclared>,
     /// Physical limits.
     pub limits: Vec<LimitDeclared>,
+    /// Ranges in which the element can be trusted.
+    pub ranges: Vec<RangeDeclared>,
     /// Bodies whose joint angle nothing depends on because of this element (rolling wheels).
     pub spinning: Vec<BodyIndex>,
     /// Full signal names of the multipliers of constraints that the element reads, in the order of [`Evaluated::multiplier`].

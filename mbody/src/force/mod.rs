@@ -17,6 +17,8 @@ pub use bushing::Bushing;
 pub use characteristic::{Air, Damping, Friction, Spring, SpringDamperLaw, Stops};
 pub use joint_effort::JointEffort;
 pub use joint_spring::{JointEffortUnit, JointSpring, stop_limits};
-pub use law::{Declared, Effort, Energy, Evaluated, Force, ForceLaw, InputDeclared, LimitDeclared, OutputDeclared, StateDeclared};
+pub use law::{
+    Declared, Effort, Energy, Evaluated, Force, ForceLaw, InputDeclared, LimitDeclared, OutputDeclared, RangeDeclared, StateDeclared,
+};
 pub use point_sensor::PointSensor;
 pub use spring_damper::SpringDamper;

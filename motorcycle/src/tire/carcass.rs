@@ -88,6 +88,10 @@ pub enum RelaxationLength {
     LoadPolynomial(Vec<f64>),
     /// `σ = K(N, γ) (c0 + c1 V + c2 V²)` with the cornering stiffness K of the law, N (Sharp, Evangelou, Limebeer 2004).
     CorneringStiffness([f64; 3]),
+    /// As the law says for lateral slip.
+    LateralOfLaw,
+    /// As the law says for longitudinal slip.
+    LongitudinalOfLaw,
 }
 
 impl RelaxationLength {
@@ -104,6 +108,8 @@ impl RelaxationLength {
                 let per_stiffness = (speed * *c2 + *c1) * speed + *c0;
                 sabs(law.cornering_stiffness(load, camber) * per_stiffness, SHORTEST)
             }
+            Self::LateralOfLaw => sabs(law.relaxation_lengths(load, camber)[0], SHORTEST),
+            Self::LongitudinalOfLaw => sabs(law.relaxation_lengths(load, camber)[1], SHORTEST),
         }
     }
 }

@@ -6,6 +6,7 @@ use super::description::SAME_RADIUS;
 use super::element::Carcass;
 use super::relaxation::Relaxation;
 use super::rigid::Rigid;
+use super::tir::PropertyFile;
 use super::vertical::Vertical;
 use super::wheel::Wheel;
 use mbody::assembly::Site;
@@ -28,6 +29,21 @@ pub enum CarcassDescription {
     Vertical(VerticalDescription),
     /// Rigid, with a relaxation of slip or force; a constraint holds the wheel on the road.
     Rigid(RigidDescription),
+}
+
+impl CarcassDescription {
+    /// Stiffness of the spring that side forces build up over, N/m, where there is one.
+    pub(super) fn lateral_stiffness(&self) -> Option<f64> {
+        let of = |relaxation: &RelaxationDescription| match relaxation {
+            RelaxationDescription::Elastic(spring) => Some(spring.stiffness.si()),
+            _ => None,
+        };
+        match self {
+            Self::Deformable(c) => Some(c.lateral.stiffness.si()),
+            Self::Vertical(c) => of(&c.relaxation),
+            Self::Rigid(c) => of(&c.relaxation),
+        }
+    }
 }
 
 /// Springs along radius and axle of the rim.
@@ -99,6 +115,8 @@ pub enum RelaxationDescription {
     Force(ForceLagDescription),
     /// By a lag of the side force except what camber alone produces.
     ForceWithoutCamber(ForceLagDescription),
+    /// By a lag of both slips over the lengths of the tire property file, where it has them.
+    OfFile,
 }
 
 /// A lag of the slip.
@@ -142,7 +160,14 @@ impl LengthDescription {
 }
 
 /// The carcass of a description.
-pub(super) fn carcass(description: CarcassDescription, wheel: Option<&Wheel>, site: &mut Site<'_>) -> Option<Carcass> {
+///
+/// `file`: the property file that the law comes from.
+pub(super) fn carcass(
+    description: CarcassDescription,
+    wheel: Option<&Wheel>,
+    file: Option<&PropertyFile>,
+    site: &mut Site<'_>,
+) -> Option<Carcass> {
     match description {
         CarcassDescription::Deformable(c) => {
             let longitudinal = c.longitudinal.map(ElasticDescription::elastic);
@@ -151,23 +176,73 @@ pub(super) fn carcass(description: CarcassDescription, wheel: Option<&Wheel>, si
         CarcassDescription::Vertical(c) => Some(Carcass::Vertical(Vertical {
             normal: Elastic { stiffness: c.stiffness.si(), damping: c.damping.si() },
             quadratic: c.stiffness_quadratic.map_or(0.0, Quantity::si),
-            relaxation: relaxation("carcass.vertical.relaxation", c.relaxation, site)?,
+            relaxation: relaxation("carcass.vertical.relaxation", c.relaxation, file, site)?,
         })),
         CarcassDescription::Rigid(c) => {
-            let relaxation = relaxation("carcass.rigid.relaxation", c.relaxation, site);
+            let relaxation = relaxation("carcass.rigid.relaxation", c.relaxation, file, site);
             let load = holding(&c.contact, wheel?, site);
             Some(Carcass::Rigid(Rigid { load: load?, relaxation: relaxation? }))
         }
     }
 }
 
-fn relaxation(key: &str, description: RelaxationDescription, site: &mut Site<'_>) -> Option<Relaxation> {
+/// The carcass of a tire property file: a spring along the normal of the road, and a lag of both slips.
+///
+/// The load of 6.x is `Fz = (q1 ρ/R0 + Q_FZ2 (ρ/R0)²) Fz0 (1 + PFZ1 p)`, `q1² = (Cz R0/Fz0)² − 4 Q_FZ2`; its changes with speed and with the forces in the plane
+/// of the road are left out. Source: H. B. Pacejka, *Tire and Vehicle Dynamics*, 3rd ed., equation 4.E68.
+pub(super) fn carcass_of_file(file: &PropertyFile, pressure: Option<f64>, site: &mut Site<'_>) -> Option<Carcass> {
+    let c = &file.coefficients;
+    if c.VERTICAL_STIFFNESS <= 0.0 {
+        let message = format!("`{}` has no `VERTICAL_STIFFNESS`, so the springs of the tire must be given", file.name);
+        site.find("", Finding::error("missing_key", message).with_hint("add `carcass: { vertical: { stiffness: …, damping: … } }`"));
+        return None;
+    }
+    let inflated = match c.NOMPRES > 0.0 {
+        true => 1.0 + c.PFZ1 * (pressure.unwrap_or(if c.INFLPRES > 0.0 { c.INFLPRES } else { c.NOMPRES }) / c.NOMPRES - 1.0),
+        false => 1.0,
+    };
+    let (radius, load) = (c.UNLOADED_RADIUS, c.FNOMIN);
+    let square = (c.VERTICAL_STIFFNESS * radius / load).powi(2) - 4.0 * c.Q_FZ2;
+    if square <= 0.0 {
+        site.refuse(
+            "law.tir",
+            "out_of_range",
+            format!("`Q_FZ2` of `{}` is {}, too large for its `VERTICAL_STIFFNESS`", file.name, c.Q_FZ2),
+        );
+        return None;
+    }
+    Some(Carcass::Vertical(Vertical {
+        normal: Elastic { stiffness: square.sqrt() * load / radius * inflated, damping: c.VERTICAL_DAMPING },
+        quadratic: c.Q_FZ2 * load / (radius * radius) * inflated,
+        relaxation: relaxation_of_file(file),
+    }))
+}
+
+/// Lag of slips over the lengths of the law, where the file has them; at once where it has none.
+fn relaxation_of_file(file: &PropertyFile) -> Relaxation {
+    let c = &file.coefficients;
+    let longitudinal = (c.PTX1 != 0.0 || c.LONGITUDINAL_STIFFNESS > 0.0).then_some(RelaxationLength::LongitudinalOfLaw);
+    match c.PTY1 != 0.0 || c.LATERAL_STIFFNESS > 0.0 {
+        true => Relaxation::Slip { lateral: RelaxationLength::LateralOfLaw, longitudinal },
+        false => Relaxation::None,
+    }
+}
+
+fn relaxation(key: &str, description: RelaxationDescription, file: Option<&PropertyFile>, site: &mut Site<'_>) -> Option<Relaxation> {
     let relaxation = match description {
         RelaxationDescription::None => Relaxation::None,
         RelaxationDescription::Elastic(spring) => Relaxation::Elastic(spring.elastic()),
         RelaxationDescription::Slip(lag) => {
             Relaxation::Slip { lateral: lag.length.length(), longitudinal: lag.longitudinal_length.map(LengthDescription::length) }
         }
+        RelaxationDescription::OfFile => match file {
+            Some(file) => relaxation_of_file(file),
+            None => {
+                let finding = Finding::error("contradictory_entries", "relaxation lengths `of_file` need a law from a tire property file");
+                site.find(key, finding.with_hint("give lengths: `relaxation: { slip: { length: { constant: 0.15 m } } }`"));
+                return None;
+            }
+        },
         RelaxationDescription::Force(lag) => Relaxation::Force(lag.length.length()),
         RelaxationDescription::ForceWithoutCamber(lag) => Relaxation::ForceWithoutCamber(lag.length.length()),
     };

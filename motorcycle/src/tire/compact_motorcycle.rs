@@ -232,6 +232,7 @@ impl TireLaw for CompactMotorcycle {
             lateral: fy * load,
             // the shape of the cross-section provides it
             overturning_moment: S::zero(),
+            rolling_moment: S::zero(),
             aligning_moment: -(trail * ka * a + twist) * load,
             utilization: length(fx / dx, fy / dy),
         }

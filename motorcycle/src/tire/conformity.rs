@@ -21,16 +21,16 @@ fn slip<S: Real>([load, lateral, longitudinal, camber, speed]: [S; 5]) -> Slip<S
     Slip { load, lateral, longitudinal, camber, speed }
 }
 
-fn numbers<S>(f: Friction<S>) -> [S; 5] {
-    [f.longitudinal, f.lateral, f.overturning_moment, f.aligning_moment, f.utilization]
+fn numbers<S>(f: Friction<S>) -> [S; 6] {
+    [f.longitudinal, f.lateral, f.overturning_moment, f.aligning_moment, f.utilization, f.rolling_moment]
 }
 
-fn evaluate(law: &impl TireLaw, at: [f64; 5]) -> [f64; 5] {
+fn evaluate(law: &impl TireLaw, at: [f64; 5]) -> [f64; 6] {
     numbers(law.friction(&slip(at)))
 }
 
-/// Exact derivatives of the five answers along the five quantities of a slip.
-fn derivatives(law: &impl TireLaw, at: [f64; 5]) -> [[f64; 5]; 5] {
+/// Exact derivatives of the six answers along the five quantities of a slip.
+fn derivatives(law: &impl TireLaw, at: [f64; 5]) -> [[f64; 5]; 6] {
     let mut seeded = at.map(Lanes::<2>::from_f64);
     for (i, s) in seeded.iter_mut().enumerate() {
         s.set_derivative(i, 1.0);
@@ -50,7 +50,7 @@ pub(super) fn derivatives_are_exact(law: &impl TireLaw) {
                 evaluate(law, there)
             };
             let (m2, m1, p1, p2) = (moved(-2.0), moved(-1.0), moved(1.0), moved(2.0));
-            for j in 0..5 {
+            for j in 0..6 {
                 let difference = (m2[j] - 8.0 * m1[j] + 8.0 * p1[j] - p2[j]) / (12.0 * h);
                 // per step of the variable, so that loads in N and slips compare
                 let scale = exact[j][i].abs().max((p1[j].abs() + 1e-3) / (at[i].abs() + 1e-3) * 1e-2);
@@ -63,9 +63,9 @@ pub(super) fn derivatives_are_exact(law: &impl TireLaw) {
 /// The mirror image of a slip gives the mirror image of the forces.
 pub(super) fn left_is_right_mirrored(law: &impl TireLaw) {
     for at in slips() {
-        let [fx, fy, mx, mz, use_] = evaluate(law, at);
+        let [fx, fy, mx, mz, used, my] = evaluate(law, at);
         let mirrored = evaluate(law, [at[0], -at[1], at[2], -at[3], at[4]]);
-        for (a, b) in mirrored.into_iter().zip([fx, -fy, -mx, -mz, use_]) {
+        for (a, b) in mirrored.into_iter().zip([fx, -fy, -mx, -mz, used, my]) {
             assert!((a - b).abs() < 1e-9, "at {at:?}: {a} {b}");
         }
     }

@@ -88,7 +88,7 @@ impl Deformable {
         let elastic_side_force = along_axle * cos - along_radius * sin * hold;
 
         // friction where the tire touches
-        let effective_radius = meridian.a - radial * tire.effective_radius_fraction;
+        let effective_radius = tire.effective_radius.at(meridian.a, radial, load);
         let (speed_x, speed_y) = (v.dot(frame.x), v.dot(frame.y));
         let reference = tire.reference_speed(speed_x);
         let per_reference = reference.recip();

@@ -1,19 +1,18 @@
 //! Written form of the tire.
 
 use super::carcass::RoadContact;
-use super::carcass_description::{CarcassDescription, carcass};
-use super::compact_motorcycle::CompactMotorcycleParameters;
+use super::carcass_description::{CarcassDescription, carcass, carcass_of_file};
+use super::effective_radius::EffectiveRadius;
 use super::element::Tire;
 use super::invalid::InvalidTireData;
-use super::law::AnyTireLaw;
-use super::linear_normalized::LinearNormalizedParameters;
-use super::magic_formula_motorcycle::MagicFormulaMotorcycleParameters;
+use super::law_description::{LawDescription, Mounted, NamedLaw, Place};
 use super::rolling_resistance::RollingResistance;
-use super::sharp_linear::SharpLinearParameters;
+use super::tir::PropertyFile;
 use super::wheel::Wheel;
 use mbody::assembly::{ElementDescription, Site};
 use mbody::contact::Profile;
-use mbody::description::finding::Finding;
+use mbody::description::Library;
+use mbody::description::finding::{Finding, Findings};
 use mbody::description::quantity::dimension::{Angle, Length, Number, Pressure, Speed};
 use mbody::description::quantity::{Fraction, NonNegativeQuantity, PositiveQuantity, Quantity};
 use schemars::JsonSchema;
@@ -25,6 +24,8 @@ pub(super) const LOW_SPEED: f64 = 0.1;
 const EFFECTIVE_RADIUS_FRACTION: f64 = 1.0 / 3.0;
 /// Relative difference of two statements of the radius that is put down to rounding.
 pub(super) const SAME_RADIUS: f64 = 1e-3;
+/// Distance from the middle plane beyond which a wheel is on one side of the vehicle, m.
+const ASIDE: f64 = 0.01;
 
 /// A tire on a wheel that rolls on the road.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -32,14 +33,15 @@ pub(super) const SAME_RADIUS: f64 = 1e-3;
 pub struct TireDescription {
     /// Name of the wheel joint; its axis points left, and the origin of its child is the center of the wheel.
     wheel: String,
-    /// Free radius on the middle plane.
-    radius: PositiveQuantity<Length>,
-    /// Shape of the cross-section.
-    crown: CrownDescription,
-    /// Springs between rim and road, and how side forces build up.
-    carcass: CarcassDescription,
+    /// Free radius on the middle plane; that of the property file where left out.
+    radius: Option<PositiveQuantity<Length>>,
+    /// Shape of the cross-section. Left out with a property file: a disc, with the overturning moment of the file.
+    crown: Option<CrownDescription>,
+    /// Springs between rim and road, and how side forces build up; those of the property file where left out.
+    carcass: Option<CarcassDescription>,
     /// Friction at the contact.
-    law: LawDescription,
+    #[schemars(with = "LawDescription")]
+    law: Option<LawDescription>,
     /// Whether the tire can leave the road; it can where left out.
     #[serde(default)]
     contact: ContactDescription,
@@ -98,22 +100,6 @@ pub struct CrownTable {
     support: Vec<PositiveQuantity<Length>>,
 }
 
-/// Friction law with its parameters (in SI), or a file that holds one.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LawDescription {
-    /// The shape of the Magic Formula on a handful of numbers.
-    CompactMotorcycle(CompactMotorcycleParameters),
-    /// Motorcycle Magic Formula of Sharp, Evangelou and Limebeer.
-    MagicFormulaMotorcycle(MagicFormulaMotorcycleParameters),
-    /// Linear, stiffnesses per load.
-    LinearNormalized(LinearNormalizedParameters),
-    /// Linear, stiffnesses as polynomials of the load.
-    SharpLinear(SharpLinearParameters),
-    /// Name of a file with one of the other entries.
-    File(String),
-}
-
 /// Whether the tire can leave the road.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -157,11 +143,15 @@ impl ElementDescription for TireDescription {
         cornering_shape: 1.1, camber_shape: 0.7 }, aligning: { pneumatic_trail: 0.025, twisting_moment: 0.015 } } }, \
         rolling_resistance: pressure, pressure: 2.25 bar, road: front_road }";
     type Law = Tire;
-    fn assemble(self, site: &mut Site<'_>) -> Option<Tire> {
-        let profile = self.profile(site);
-        let rolling_resistance = self.rolling_resistance(site);
-        let law = friction_law(self.law, site);
-        let rigid = matches!(self.carcass, CarcassDescription::Rigid(_));
+    fn assemble(mut self, site: &mut Site<'_>) -> Option<Tire> {
+        let place = self.place(site);
+        let named = chosen_law(self.law.take(), &place, site);
+        let file = named.as_ref().and_then(|named| named.file.as_ref());
+        // a property file that is wrong might have said what is missing here
+        let complete = named.is_none() || self.complete(file, site);
+        let profile = self.profile(file, site);
+        let rolling_resistance = self.rolling_resistance(file, site);
+        let rigid = matches!(self.carcass, Some(CarcassDescription::Rigid(_)));
         if let (true, Some(road)) = (rigid, &self.road) {
             let message = format!("a rigid tire stays on the level road, so the road `{road}` has no height");
             site.find("road", Finding::error("contradictory_entries", message).with_hint("leave the entry out"));
@@ -170,26 +160,92 @@ impl ElementDescription for TireDescription {
         if let (true, Some(wheel)) = (rigid, &mut wheel) {
             wheel.road = None;
         }
-        let carcass = carcass(self.carcass, wheel.as_ref(), site);
+        let carcass = match (self.carcass, file) {
+            (Some(written), _) => carcass(written, wheel.as_ref(), file, site),
+            (None, Some(file)) => carcass_of_file(file, self.pressure.map(Quantity::si), site),
+            (None, None) => None,
+        };
+        let effective_radius = effective_radius(self.effective_radius_fraction, file);
         Some(Tire {
             wheel: wheel?,
             carcass: carcass?,
-            law: law?,
+            law: named.filter(|_| complete)?.law,
             contact: match self.contact {
                 ContactDescription::Lifting => RoadContact::Lifting,
                 ContactDescription::Bonded => RoadContact::Bonded,
             },
             rolling_resistance: rolling_resistance?,
-            effective_radius_fraction: self.effective_radius_fraction.map_or(EFFECTIVE_RADIUS_FRACTION, Quantity::si),
+            effective_radius,
             low_speed: self.low_speed.map_or(LOW_SPEED, Quantity::si),
         })
     }
 }
 
+/// The law of a tire and what its carcass says of it, apart from any vehicle.
+#[derive(Debug)]
+pub struct StatedTire {
+    /// The law.
+    pub named: NamedLaw,
+    /// Lateral stiffness of the carcass, N/m, over which the cornering stiffness is the relaxation length; none where it gives way otherwise.
+    pub lateral_stiffness: Option<f64>,
+}
+
 impl TireDescription {
-    fn profile(&self, site: &mut Site<'_>) -> Option<Profile> {
-        let radius = self.radius.si();
-        let profile = match &self.crown {
+    /// The law of a tire whose written form is `value`; the wheel is taken to be in the middle plane where its law does not say.
+    ///
+    /// # Errors
+    /// `None` where there are errors among the findings.
+    pub fn stated(value: &serde_json::Value, library: &dyn Library, findings: &mut Findings) -> Option<StatedTire> {
+        let read = serde_path_to_error::deserialize::<_, Self>(value);
+        let wrong = |e: serde_path_to_error::Error<serde_json::Error>| {
+            Finding::error("wrong_value", e.inner().to_string()).at_path(e.path().to_string())
+        };
+        let mut description = read.map_err(|error| findings.push(wrong(error))).ok()?;
+        let crowned = !matches!(description.crown, None | Some(CrownDescription::Disc));
+        let place = Place { mounted: Some(Mounted::Middle), crowned, pressure: description.pressure.map(Quantity::si) };
+        let named = description.law.take()?.law(&place, library, findings)?;
+        let lateral_stiffness = description.carcass.as_ref().and_then(CarcassDescription::lateral_stiffness);
+        Some(StatedTire { named, lateral_stiffness })
+    }
+
+    /// What the place of the tire says about its law.
+    fn place(&self, site: &Site<'_>) -> Place {
+        let aside = site.model().joint(&self.wheel).map_or(0.0, |body| site.design_pose(body).p.y);
+        let mounted = match aside {
+            y if y > ASIDE => Mounted::Left,
+            y if y < -ASIDE => Mounted::Right,
+            _ => Mounted::Middle,
+        };
+        let crowned = !matches!(self.crown, None | Some(CrownDescription::Disc));
+        Place { mounted: Some(mounted), crowned, pressure: self.pressure.map(Quantity::si) }
+    }
+
+    /// Whether everything is said that no property file says.
+    fn complete(&self, file: Option<&PropertyFile>, site: &mut Site<'_>) -> bool {
+        if file.is_some() {
+            return true;
+        }
+        let missing = [
+            ("radius", self.radius.is_none(), "the free radius on the middle plane"),
+            ("crown", self.crown.is_none(), "the shape of the cross-section"),
+            ("carcass", self.carcass.is_none(), "the springs between rim and road"),
+        ];
+        for (key, missing, about) in missing {
+            if missing {
+                let finding = Finding::error("missing_key", format!("missing key `{key}`"));
+                site.find(
+                    "",
+                    finding.with_hint(format!("`{key}` is {about}; only a law from a tire property file (`law: {{ tir: … }}`) gives it")),
+                );
+            }
+        }
+        missing.iter().all(|(_, missing, _)| !missing)
+    }
+
+    fn profile(&self, file: Option<&PropertyFile>, site: &mut Site<'_>) -> Option<Profile> {
+        let radius = self.radius.map(Quantity::si).or(file.map(|file| file.coefficients.UNLOADED_RADIUS))?;
+        let crown = self.crown.as_ref().or(file.map(|_| &CrownDescription::Disc))?;
+        let profile = match crown {
             CrownDescription::Disc => Profile::disc(radius),
             CrownDescription::Torus(torus) => Profile::torus(radius, torus.radius.si()),
             CrownDescription::Ellipse(e) => Profile::ellipse(radius, e.radial.si(), e.lateral.si()),
@@ -212,8 +268,9 @@ impl TireDescription {
         Some(profile)
     }
 
-    fn rolling_resistance(&self, site: &mut Site<'_>) -> Option<RollingResistance> {
+    fn rolling_resistance(&self, file: Option<&PropertyFile>, site: &mut Site<'_>) -> Option<RollingResistance> {
         let resistance = match (&self.rolling_resistance, self.pressure) {
+            (None, _) if file.is_some() => RollingResistance::Law,
             (None, _) => RollingResistance::Constant(0.0),
             (Some(RollingResistanceDescription::Constant(value)), _) => RollingResistance::Constant(value.si()),
             (Some(RollingResistanceDescription::Quadratic(q)), _) => {
@@ -255,37 +312,33 @@ pub(super) fn wheel(site: &mut Site<'_>, joint: &str, profile: Profile, road: Op
     None
 }
 
-/// The law of a description; a file holds the same entry as the description would.
-fn friction_law(description: LawDescription, site: &mut Site<'_>) -> Option<AnyTireLaw> {
-    let (key, parameters) = match description {
-        LawDescription::File(name) => ("law.file", law_file(&name, site)?),
-        parameters => ("law", parameters),
-    };
-    match parameters {
-        LawDescription::CompactMotorcycle(p) => checked(key, p.law(), site).map(AnyTireLaw::new),
-        LawDescription::MagicFormulaMotorcycle(p) => checked(key, p.law(), site).map(AnyTireLaw::new),
-        LawDescription::LinearNormalized(p) => checked(key, p.law(), site).map(AnyTireLaw::new),
-        LawDescription::SharpLinear(p) => checked(key, p.law(), site).map(AnyTireLaw::new),
-        LawDescription::File(name) => {
-            site.refuse(
-                key,
-                "invalid_tire_file",
-                format!("file `{name}` is named by another file; a tire file holds the parameters themselves"),
-            );
-            None
-        }
+/// The law of a description.
+fn chosen_law(description: Option<LawDescription>, place: &Place, site: &mut Site<'_>) -> Option<NamedLaw> {
+    let mut findings = Findings::new();
+    let named = description?.law(place, site.library(), &mut findings);
+    // what has no line is about an entry of the tire
+    let (elsewhere, here): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(|f| !f.file.is_empty());
+    site.pass_on(elsewhere.into_iter().collect());
+    for finding in here {
+        let key = finding.path.clone();
+        site.find(&key, finding);
     }
+    named
 }
 
-/// The single entry of a tire file.
-fn law_file(name: &str, site: &mut Site<'_>) -> Option<LawDescription> {
-    let text = site.text("law.file", name)?;
-    // through a plain value: in it a choice is a mapping with one key, as in descriptions
-    let value = serde_yaml::from_str::<serde_json::Value>(&text).map_err(|error| error.to_string());
-    let law = value.and_then(|value| {
-        serde_path_to_error::deserialize::<_, LawDescription>(&value).map_err(|error| format!("{} at `{}`", error.inner(), error.path()))
-    });
-    law.map_err(|error| site.refuse("law.file", "invalid_tire_file", format!("file `{name}`: {error}"))).ok()
+/// The effective radius: a share of the compression, or that of the property file.
+fn effective_radius(fraction: Option<Quantity<Number, Fraction>>, file: Option<&PropertyFile>) -> EffectiveRadius {
+    let of_file = file.map(|file| &file.coefficients).filter(|c| c.VERTICAL_STIFFNESS > 0.0 && c.BREFF != 0.0);
+    match (fraction, of_file) {
+        (None, Some(c)) => EffectiveRadius::Fit {
+            nominal_load: c.FNOMIN,
+            deflection: c.FNOMIN / c.VERTICAL_STIFFNESS,
+            slope: c.BREFF,
+            peak: c.DREFF,
+            linear: c.FREFF,
+        },
+        (fraction, _) => EffectiveRadius::Fraction(fraction.map_or(EFFECTIVE_RADIUS_FRACTION, Quantity::si)),
+    }
 }
 
 /// A value that may be refused, with its finding.

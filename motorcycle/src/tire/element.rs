@@ -5,8 +5,9 @@
 
 use super::carcass::RoadContact;
 use super::deformable::Deformable;
-use super::law::{AnyTireLaw, TireLaw};
-use super::patch::{Patch, limits, outputs};
+use super::effective_radius::EffectiveRadius;
+use super::law::{AnyTireLaw, MomentPoint, TireLaw};
+use super::patch::{Patch, limits, outputs, ranges};
 use super::rigid::Rigid;
 use super::rolling_resistance::RollingResistance;
 use super::vertical::Vertical;
@@ -40,8 +41,8 @@ pub struct Tire {
     pub contact: RoadContact,
     /// Rolling resistance.
     pub rolling_resistance: RollingResistance,
-    /// Share of the compression by which the effective rolling radius is smaller than the free one, 0 to 1.
-    pub effective_radius_fraction: f64,
+    /// Effective rolling radius.
+    pub effective_radius: EffectiveRadius,
     /// Speed V0 below which slips are rounded, m/s.
     pub low_speed: f64,
 }
@@ -63,10 +64,31 @@ impl Tire {
 
     #[inline]
     fn patch<S: SystemScalar>(&self, rolling: &Rolling<S>, at: &Evaluated<'_, S>) -> Patch<S> {
-        match &self.carcass {
+        let mut patch = match &self.carcass {
             Carcass::Deformable(c) => c.patch(self, rolling, at),
             Carcass::Vertical(c) => c.patch(self, rolling, at),
             Carcass::Rigid(c) => c.patch(self, rolling, at),
+        };
+        self.carry(rolling, &mut patch);
+        patch
+    }
+
+    /// Moments of the law at the point of contact P: about the point P_w where the plane of the wheel meets the road they are those about P and
+    /// those of the forces, `Mz = Mz_w + y Fx`, `Mx = Mx_w − y N` with y the place of P to the left of P_w.
+    #[inline]
+    fn carry<S: SystemScalar>(&self, rolling: &Rolling<S>, patch: &mut Patch<S>) {
+        let friction = &mut patch.friction;
+        if let RollingResistance::Law = self.rolling_resistance {
+            patch.rolling_moment = friction.rolling_moment * RollingResistance::fading(rolling.spin);
+        }
+        let point = self.law.moment_point();
+        if point == MomentPoint::Contact {
+            return;
+        }
+        let aside = patch.arm.dot(rolling.axis) / rolling.frame.cos_camber;
+        friction.aligning_moment += aside * friction.longitudinal;
+        if point == MomentPoint::WheelPlane {
+            friction.overturning_moment -= aside * patch.load;
         }
     }
 }
@@ -78,6 +100,7 @@ impl ForceLaw for Tire {
             inputs: self.wheel.inputs(),
             outputs: outputs(element),
             limits: limits(element, &self.wheel, self.law.saturates()),
+            ranges: ranges(element, self.law.fit()),
             spinning: vec![self.wheel.body],
             multipliers: match &self.carcass {
                 Carcass::Rigid(c) => vec![c.load.clone()],

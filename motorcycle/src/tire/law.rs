@@ -30,10 +30,37 @@ pub struct Friction<S> {
     pub lateral: S,
     /// Moment about the forward axis, N m, beyond what the shape of the cross-section produces by itself.
     pub overturning_moment: S,
+    /// Moment of rolling resistance about the axle, N m, negative where it brakes a wheel that rolls forward; 0 for laws that know nothing of it.
+    pub rolling_moment: S,
     /// Moment about the normal of the road, upward, N m.
     pub aligning_moment: S,
     /// Share of the available friction in use: 0 free, about 1 at the peak of the force; 0 for laws without a limit.
     pub utilization: S,
+}
+
+/// Within which states a tire was measured: lower and upper bound, in our axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// Load, N.
+    pub load: [f64; 2],
+    /// Slip angle, rad.
+    pub slip_angle: [f64; 2],
+    /// Longitudinal slip.
+    pub longitudinal_slip: [f64; 2],
+    /// Camber, rad.
+    pub camber: [f64; 2],
+}
+
+/// About which point a law gives its moments.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MomentPoint {
+    /// The point of contact, where the forces act.
+    #[default]
+    Contact,
+    /// The point where the plane of the wheel meets the road, with all that camber does.
+    WheelPlane,
+    /// The same point for the aligning moment; the shape of the cross-section makes the overturning moment.
+    WheelPlaneOfCrown,
 }
 
 /// A friction law: steady forces of a rolling tire.
@@ -52,12 +79,33 @@ pub trait TireLaw: Send + Sync + 'static {
 
     /// Whether the forces have a peak, so that the utilization means something.
     fn saturates(&self) -> bool;
+
+    /// Within which states the tire was measured, where the law knows.
+    fn fit(&self) -> Option<Fit> {
+        None
+    }
+
+    /// About which point the moments are.
+    fn moment_point(&self) -> MomentPoint {
+        MomentPoint::Contact
+    }
+
+    /// Lateral and longitudinal relaxation length at a load and a camber, m; 0 where the law knows none.
+    fn relaxation_lengths<S: SystemScalar>(&self, _load: S, _camber: S) -> [S; 2] {
+        [S::zero(), S::zero()]
+    }
+
+    /// Whether the law knows the rolling resistance.
+    fn rolls(&self) -> bool {
+        false
+    }
 }
 
 /// A law for one scalar: object-safe, implemented for every [`TireLaw`].
 trait LawFor<S>: Send + Sync {
     fn friction_at(&self, slip: &Slip<S>) -> Friction<S>;
     fn cornering_stiffness_at(&self, load: S, camber: S) -> S;
+    fn relaxation_lengths_at(&self, load: S, camber: S) -> [S; 2];
 }
 
 impl<S: SystemScalar, L: TireLaw> LawFor<S> for L {
@@ -67,6 +115,10 @@ impl<S: SystemScalar, L: TireLaw> LawFor<S> for L {
 
     fn cornering_stiffness_at(&self, load: S, camber: S) -> S {
         self.cornering_stiffness(load, camber)
+    }
+
+    fn relaxation_lengths_at(&self, load: S, camber: S) -> [S; 2] {
+        self.relaxation_lengths(load, camber)
     }
 }
 
@@ -91,13 +143,16 @@ impl<L: TireLaw> Make<LawFamily> for Shared<L> {
 pub struct AnyTireLaw {
     laws: Arc<PerScalar<LawFamily>>,
     saturates: bool,
+    fit: Option<Fit>,
+    moment_point: MomentPoint,
+    rolls: bool,
 }
 
 impl AnyTireLaw {
     /// Stores a law.
     pub fn new(law: impl TireLaw) -> Self {
-        let saturates = law.saturates();
-        Self { laws: Arc::new(PerScalar::new(&Shared(Arc::new(law)))), saturates }
+        let (saturates, fit, moment_point, rolls) = (law.saturates(), law.fit(), law.moment_point(), law.rolls());
+        Self { laws: Arc::new(PerScalar::new(&Shared(Arc::new(law)))), saturates, fit, moment_point, rolls }
     }
 }
 
@@ -120,5 +175,22 @@ impl TireLaw for AnyTireLaw {
 
     fn saturates(&self) -> bool {
         self.saturates
+    }
+
+    fn fit(&self) -> Option<Fit> {
+        self.fit
+    }
+
+    fn moment_point(&self) -> MomentPoint {
+        self.moment_point
+    }
+
+    #[inline]
+    fn relaxation_lengths<S: SystemScalar>(&self, load: S, camber: S) -> [S; 2] {
+        S::pick(&self.laws).relaxation_lengths_at(load, camber)
+    }
+
+    fn rolls(&self) -> bool {
+        self.rolls
     }
 }

@@ -65,6 +65,7 @@ impl TireLaw for LinearNormalized {
             longitudinal: slip.longitudinal * p.longitudinal_stiffness * slip.load,
             lateral: (a * p.cornering_stiffness - g * p.camber_stiffness) * slip.load,
             overturning_moment: S::zero(),
+            rolling_moment: S::zero(),
             aligning_moment: -(a * p.aligning_stiffness + g * p.twisting_stiffness) * slip.load,
             utilization: S::zero(),
         }

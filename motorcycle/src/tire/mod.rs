@@ -9,19 +9,24 @@
 
 pub mod carcass;
 pub mod carcass_description;
+pub mod characteristic;
 pub mod compact_motorcycle;
 pub mod deformable;
 pub mod description;
+pub mod effective_radius;
 pub mod element;
 pub mod invalid;
 pub mod law;
+pub mod law_description;
 pub mod linear_normalized;
+pub mod magic_formula;
 pub mod magic_formula_motorcycle;
 pub mod relaxation;
 pub mod rigid;
 pub mod rolling_resistance;
 pub mod sharp_linear;
 pub mod thin_disc_linear;
+pub mod tir;
 pub mod vertical;
 pub mod wheel;
 
@@ -32,11 +37,14 @@ mod shape;
 pub mod similarity;
 
 pub use carcass::{Elastic, RelaxationLength, RoadContact};
+pub use characteristic::{Characteristic, characteristic};
 pub use deformable::Deformable;
-pub use description::TireDescription;
+pub use description::{StatedTire, TireDescription};
+pub use effective_radius::EffectiveRadius;
 pub use element::{Carcass, Tire};
 pub use invalid::InvalidTireData;
-pub use law::{AnyTireLaw, Friction, Slip, TireLaw};
+pub use law::{AnyTireLaw, Fit, Friction, MomentPoint, Slip, TireLaw};
+pub use law_description::{LawDescription, Mounted, NamedLaw, Place};
 pub use relaxation::Relaxation;
 pub use rigid::Rigid;
 pub use thin_disc_linear::{ThinDiscLinear, ThinDiscLinearDescription};

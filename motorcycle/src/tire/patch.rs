@@ -15,9 +15,9 @@
 //!
 //! Source: balance of power of a rigid body; the account is ours.
 
-use super::law::Friction;
+use super::law::{Fit, Friction};
 use super::wheel::{Rolling, Wheel};
-use mbody::force::{Effort, Energy, LimitDeclared, OutputDeclared};
+use mbody::force::{Effort, Energy, LimitDeclared, OutputDeclared, RangeDeclared};
 use mbody::scalar::SystemScalar;
 use mbody::spatial::Vec3;
 use problem::Side;
@@ -154,4 +154,17 @@ pub(super) fn limits(element: &str, wheel: &Wheel, saturates: bool) -> Vec<Limit
         limits.push(limit("tire_saturated", "friction_use", SATURATED, Side::Above, 1.0, "the tire has no friction left"));
     }
     limits
+}
+
+/// The states in which the law was measured.
+pub(super) fn ranges(element: &str, fit: Option<Fit>) -> Vec<RangeDeclared> {
+    let Some(fit) = fit else { return Vec::new() };
+    let range =
+        |quantity: &str, bounds| RangeDeclared { signal: format!("{element}.{quantity}"), bounds, about: "the measurements of the tire" };
+    vec![
+        range("normal_force", fit.load),
+        range("slip_angle", fit.slip_angle),
+        range("longitudinal_slip", fit.longitudinal_slip),
+        range("camber", fit.camber),
+    ]
 }

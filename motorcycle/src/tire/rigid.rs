@@ -34,8 +34,9 @@ impl Rigid {
         let arm = frame.k.scaled(wheel.penetration) - frame.e.scaled(meridian.a) - wheel.axis.scaled(meridian.b);
         let v = wheel.velocity_at(arm);
         let speed = v.dot(frame.x);
+        let effective_radius = tire.effective_radius.at(meridian.a, S::zero(), load);
         let sliding = Sliding {
-            x: speed - meridian.a * wheel.spin,
+            x: speed - effective_radius * wheel.spin,
             y: v.dot(frame.y),
             reference: tire.reference_speed(speed),
             load,
@@ -47,11 +48,11 @@ impl Rigid {
             velocity: v,
             lever: meridian.a - wheel.penetration * frame.cos_camber,
             deflection: wheel.penetration,
-            effective_radius: meridian.a,
+            effective_radius,
             load,
             support: S::zero(),
             friction: Friction::default(),
-            rolling_moment: tire.rolling_resistance.moment(load, meridian.a, wheel.spin, speed),
+            rolling_moment: tire.rolling_resistance.moment(load, effective_radius, wheel.spin, speed),
             lateral_slip: S::zero(),
             longitudinal_slip: S::zero(),
             rows: [S::zero(); 2],

@@ -40,6 +40,8 @@ pub enum RollingResistance {
         /// Growth with the square of the speed, f2, s²/m².
         per_speed_squared: f64,
     },
+    /// As the friction law says; nothing beside it.
+    Law,
     /// The form with inflation pressure, blended between its two branches.
     Pressure {
         /// Inflation pressure, Pa.
@@ -57,6 +59,7 @@ impl RollingResistance {
     /// Negative coefficients; a pressure that is not positive.
     pub fn checked(self) -> Result<Self, InvalidTireData> {
         match self {
+            Self::Law => {}
             Self::Constant(value) => not_negative(&[("constant", value)])?,
             Self::Quadratic { at_rest, per_speed_squared } => {
                 not_negative(&[("at_rest", at_rest), ("per_speed_squared", per_speed_squared)])?;
@@ -69,6 +72,7 @@ impl RollingResistance {
     /// Coefficient at a speed, m/s.
     pub fn coefficient<S: Real>(&self, speed: S) -> S {
         match *self {
+            Self::Law => S::zero(),
             Self::Constant(value) => S::from_f64(value),
             Self::Quadratic { at_rest, per_speed_squared } => speed * speed * per_speed_squared + at_rest,
             Self::Pressure { pressure } => {
@@ -84,7 +88,13 @@ impl RollingResistance {
 
     /// Moment about the axle, N m, opposing the spin: load N, effective radius m, spin rad/s, speed m/s.
     pub fn moment<S: Real>(&self, load: S, radius: S, spin: S, speed: S) -> S {
-        -(self.coefficient(speed) * load * radius * (spin / FADING_SPIN).tanh())
+        -(self.coefficient(speed) * load * radius * Self::fading(spin))
+    }
+
+    /// Share of the moment at a spin, rad/s: its sense, and nothing at rest.
+    #[inline]
+    pub(super) fn fading<S: Real>(spin: S) -> S {
+        (spin / FADING_SPIN).tanh()
     }
 }
 

@@ -91,6 +91,7 @@ impl TireLaw for SharpLinear {
             longitudinal: slip.longitudinal * p.longitudinal_stiffness,
             lateral: at_load(&p.cornering_stiffness) * a - at_load(&p.camber_stiffness) * g,
             overturning_moment: at_load(&p.overturning_stiffness) * g,
+            rolling_moment: S::zero(),
             aligning_moment: -(at_load(&p.aligning_stiffness) * a + at_load(&p.camber_aligning_stiffness) * g),
             utilization: S::zero(),
         }

@@ -45,7 +45,7 @@ impl Vertical {
         let square = compressed * compressed.abs() * self.quadratic;
 
         // friction after relaxation
-        let effective_radius = meridian.a - depth * tire.effective_radius_fraction;
+        let effective_radius = tire.effective_radius.at(meridian.a, depth, load);
         let speed = v.dot(frame.x);
         let sliding = Sliding {
             x: speed - effective_radius * wheel.spin,

@@ -113,6 +113,10 @@ impl Document {
 
     /// The finding, with the place that its path names, or of the nearest enclosing entry where it names none.
     pub fn locate(&self, finding: Finding) -> Finding {
+        // it is about another file
+        if finding.line.is_some() {
+            return finding;
+        }
         let mut path = finding.path.as_str();
         loop {
             if let Some(pointer) = self.find(path) {

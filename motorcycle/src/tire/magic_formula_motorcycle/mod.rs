@@ -183,6 +183,7 @@ impl TireLaw for MagicFormulaMotorcycle {
             lateral: planar.fy * slip.load,
             // the shape of the cross-section provides it
             overturning_moment: S::zero(),
+            rolling_moment: S::zero(),
             aligning_moment: self.aligning(&load, a, g, &planar) * slip.load,
             utilization: length(planar.fx / planar.mu_x, planar.fy / planar.mu_y),
         }
