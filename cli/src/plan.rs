@@ -11,6 +11,7 @@ use mbody::description::finding::Finding;
 use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Curvature, Length, Number, Speed, Torque};
 use mbody::description::quantity::{Dimension, Dimensioned, QuantityError, parse_quantity};
 use mbody::dynamics::System;
+use motorcycle::steering::STANDS;
 use problem::{Plant, UnknownKind};
 use std::f64::consts::FRAC_PI_2;
 
@@ -302,6 +303,11 @@ pub fn base_name(plant: &dyn Plant) -> Option<String> {
     plant.unknowns().iter().find_map(|u| u.signal.name.strip_suffix(".forward_speed").map(str::to_owned))
 }
 
+/// Whether the vehicle stands on its wheels: then a turn is given and its roll is found, where a leaning one is given its roll.
+pub fn stands(plant: &dyn Plant) -> bool {
+    plant.outputs().iter().any(|output| output.name == STANDS)
+}
+
 fn fix_if_there(trim: &mut Trim, name: &str, value: f64) -> Result<(), Failure> {
     if trim.role(name).is_some() {
         trim.give(name, value)?;
@@ -324,14 +330,23 @@ impl Request {
     }
 
     /// The static pose: everything at rest, upright, no lateral deflection.
+    ///
+    /// A vehicle that stands on its wheels finds its roll. Its wheels may lean a little and push to the side, and a tire at rest has no friction but that of
+    /// slip: what holds it in place is a creep of some micrometers a second, in all directions, against the rolling resistance.
     pub fn at_rest(&self, plant: &dyn Plant) -> Result<Plan, Failure> {
-        let mut trim = Trim::at_rest(plant);
+        let stands = stands(plant);
+        let mut trim = if stands { Trim::steady(plant) } else { Trim::at_rest(plant) };
         if let Some(base) = base_name(plant) {
-            fix_if_there(&mut trim, &format!("{base}.roll"), 0.0)?;
+            if !stands {
+                fix_if_there(&mut trim, &format!("{base}.roll"), 0.0)?;
+            }
             trim.guess(&format!("{base}.heave"), FIRST_HEAVE);
         }
+        if stands {
+            free_if_there(&mut trim, "steer.torque", 0.0)?;
+        }
         fix_if_there(&mut trim, "steer.angle", 0.0)?;
-        for unknown in plant.unknowns() {
+        for unknown in plant.unknowns().iter().filter(|_| !stands) {
             let name = &unknown.signal.name;
             if unknown.kind == UnknownKind::State && LATERAL_STATES.iter().any(|state| name.ends_with(state)) {
                 fix_if_there(&mut trim, name, 0.0)?;
@@ -371,7 +386,9 @@ impl Request {
             largest_steps.push(10.0);
         }
         let at = speed.max(1.0);
-        match self.turn.as_ref().map_or(Turn::Lean, |t| t.0) {
+        // straight on: upright where the lean is chosen, without yaw rate where it is found
+        let straight = if stands(plant) { Turn::YawRate } else { Turn::Lean };
+        match self.turn.as_ref().map_or(straight, |t| t.0) {
             Turn::Lean => {
                 trim.give(&format!("{base}.roll"), 0.0)?;
                 largest_steps.push(0.18);

@@ -3,7 +3,7 @@
 use crate::arguments::unknown_name;
 use crate::backend::AlgebraicBackend;
 use crate::output::{Given, Point, Progress};
-use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
+use crate::plan::{Drive, Plan, Prescribed, Request, Turn, stands};
 use crate::{Failure, backend};
 use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};
@@ -260,12 +260,17 @@ impl Job<'_> {
             (speed, _) => {
                 let speed = speed.unwrap_or(50.0);
                 match request.turn.as_ref().map(|t| t.0) {
-                    Some(Turn::SteerTorque) => self.with_torque(speed, goal)?,
+                    Some(Turn::SteerTorque) if !self.stands() => self.with_torque(speed, goal)?,
                     _ => vec![self.moving(speed, goal)?],
                 }
             }
         };
         Ok(found.into_iter().map(|p| to_point(given.clone(), p)).collect())
+    }
+
+    /// A vehicle that stands on its wheels turns in one way with a given steering torque.
+    fn stands(&self) -> bool {
+        stands(&TreePlant::new(self.system.clone()))
     }
 
     fn at_rest(&self) -> Result<TrimPoint, Failure> {

@@ -16,6 +16,8 @@
 //! | κ₀, y_r | 1/m | kinematic curvature: that of the path of P_r if no wheel slipped sideways, positive to the left; y_r across the contact at the rear |
 //! | V₀, r₀ | | 0.001 m/s, 0.001 rad/s: keep the signals differentiable at rest and in straight running |
 //!
+//! Where several wheels stand side by side in front or at the rear ([`super::MultiTrack`]), P, x, n and y are means over them.
+//!
 //! Source: V. Cossalter, *Motorcycle Dynamics* (2006), chapters 1, 4 and 7 (definitions). Range: level road; lean as in `mbody`'s contact geometry.
 
 use crate::signal::turning_axis;
@@ -47,10 +49,43 @@ pub struct Wheel {
 }
 
 impl Wheel {
-    fn contact<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> (Contact<S>, Vec3<S>) {
+    pub(super) fn contact<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> (Contact<S>, Vec3<S>) {
         let X = at.X_WB(self.body);
         let axis = X.R.times_const(self.axis);
         (Contact::with_plane(&self.profile, X.p, axis, &Plane::LEVEL.tangent_plane(X.p.x, X.p.y)), axis)
+    }
+}
+
+/// Where an axle touches the road: means over its wheels.
+struct Touch<S> {
+    point: Vec3<S>,
+    forward: Vec3<S>,
+    across: Vec3<S>,
+    axis: Vec3<S>,
+}
+
+impl<S: SystemScalar> Touch<S> {
+    fn of(wheels: &[Wheel], at: &Evaluated<'_, S>) -> Self {
+        let touch = |wheel: &Wheel| {
+            let (contact, axis) = wheel.contact(at);
+            Self { point: contact.point, forward: contact.frame.x, across: contact.frame.y, axis }
+        };
+        let mut sum = touch(&wheels[0]);
+        if wheels.len() == 1 {
+            return sum;
+        }
+        for wheel in &wheels[1..] {
+            let one = touch(wheel);
+            sum = Self {
+                point: sum.point + one.point,
+                forward: sum.forward + one.forward,
+                across: sum.across + one.across,
+                axis: sum.axis + one.axis,
+            };
+        }
+        let unit = |v: Vec3<S>| v.scaled(v.norm().recip());
+        let count = S::from_f64(1.0 / wheels.len() as f64);
+        Self { point: sum.point.scaled(count), forward: unit(sum.forward), across: unit(sum.across), axis: unit(sum.axis) }
     }
 }
 
@@ -63,13 +98,16 @@ pub struct SingleTrack {
     pub steer: BodyIndex,
     /// Unit axis of the steering, upward, in that body.
     pub steer_axis: Vec3<f64>,
-    /// Front wheel.
-    pub front: Wheel,
-    /// Rear wheel.
-    pub rear: Wheel,
+    /// Front wheels, at least one.
+    pub front: Vec<Wheel>,
+    /// Rear wheels, at least one.
+    pub rear: Vec<Wheel>,
     /// First part of the name of the input: `steer` reads `steer.torque`.
     pub input: String,
 }
+
+/// Number of outputs.
+pub(super) const OUTPUTS: usize = 7;
 
 impl ForceLaw for SingleTrack {
     fn declare(&self, _element: &str) -> Declared {
@@ -93,15 +131,15 @@ impl ForceLaw for SingleTrack {
         out.output(1, r / sabs(V, SPEED_ROUNDING));
         out.output(2, at.input(0) * r / sabs(r, YAW_RATE_ROUNDING));
 
-        let ((front, axle), (rear, _)) = (self.front.contact(at), self.rear.contact(at));
+        let (front, rear) = (Touch::of(&self.front, at), Touch::of(&self.rear, at));
         out.output(3, (front.point - rear.point).norm());
         let X = at.X_WB(self.steer);
         let s = X.R.times_const(self.steer_axis);
         let on_road = X.p - s.scaled(X.p.z / s.z);
-        out.output(4, (on_road - front.point).dot(front.frame.x));
-        out.output(5, (front.point - X.p).cross(s).dot(axle));
+        out.output(4, (on_road - front.point).dot(front.forward));
+        out.output(5, (front.point - X.p).cross(s).dot(front.axis));
         // the axles, projected onto the road, meet at P_r + y_r/κ₀
-        out.output(6, rear.frame.y.dot(front.frame.x) / (front.point - rear.point).dot(front.frame.x));
+        out.output(6, rear.across.dot(front.forward) / (front.point - rear.point).dot(front.forward));
     }
     fn energy<S: SystemScalar>(&self, _at: &Evaluated<'_, S>) -> Energy<S> {
         Energy::default()
@@ -137,7 +175,7 @@ pub struct SingleTrackDescription {
 }
 
 impl WheelDescription {
-    fn wheel(&self, key: &str, site: &mut Site<'_>) -> Option<Wheel> {
+    pub(super) fn wheel(&self, key: &str, site: &mut Site<'_>) -> Option<Wheel> {
         let body = site.joint_with(&format!("{key}.joint"), &self.joint, "rad")?;
         match Profile::torus(self.radius.si(), self.crown_radius.map_or(0.0, Quantity::si)) {
             Ok(profile) => Some(Wheel { body, axis: turning_axis(site.model(), body), profile }),
@@ -157,22 +195,44 @@ impl ElementDescription for SingleTrackDescription {
     const TREE: &'static str = crate::EXAMPLE_TREE;
     type Law = SingleTrack;
     fn assemble(self, site: &mut Site<'_>) -> Option<SingleTrack> {
-        let base = site.link("base", &self.base);
-        let steer = site.joint_with("steer", &self.steer, "rad");
+        let course = Course::find(&self.base, &self.steer, site);
         let (front, rear) = (self.front_wheel.wheel("front_wheel", site), self.rear_wheel.wheel("rear_wheel", site));
-        let (base, steer, front, rear) = (base?.0, steer?, front?, rear?);
+        let (course, front, rear) = (course?, front?, rear?);
+        Some(course.observer(vec![front], vec![rear], self.input))
+    }
+}
+
+/// The base and the steering of a vehicle.
+pub(super) struct Course {
+    base: BodyIndex,
+    steer: BodyIndex,
+    steer_axis: Vec3<f64>,
+}
+
+impl Course {
+    /// Link on the vehicle base and steering joint of these names; `None` with a finding where they are something else.
+    pub(super) fn find(base_name: &str, steer_name: &str, site: &mut Site<'_>) -> Option<Self> {
+        let base = site.link("base", base_name);
+        let steer = site.joint_with("steer", steer_name, "rad");
+        let (base, steer) = (base?.0, steer?);
         let names: Vec<_> = site.model().body(base).joint.velocities().iter().map(|v| v.name).collect();
         if names.first() != Some(&"forward_speed") || names.get(2) != Some(&"yaw_rate") {
-            let message = format!("link `{}` does not move on a vehicle base, so it has no forward speed and no yaw rate", self.base);
+            let message = format!("link `{base_name}` does not move on a vehicle base, so it has no forward speed and no yaw rate");
             site.refuse("base", "wrong_link", message);
             return None;
         }
         let steer_axis = turning_axis(site.model(), steer);
         if (site.design_pose(steer).R * steer_axis).z <= 0.0 {
-            site.refuse("steer", "wrong_joint", format!("the axis of joint `{}` does not point upward", self.steer));
+            site.refuse("steer", "wrong_joint", format!("the axis of joint `{steer_name}` does not point upward"));
             return None;
         }
-        Some(SingleTrack { base, steer, steer_axis, front, rear, input: self.input.unwrap_or_else(|| "steer".to_owned()) })
+        Some(Self { base, steer, steer_axis })
+    }
+
+    /// The observer with these wheels, each list at least one.
+    pub(super) fn observer(self, front: Vec<Wheel>, rear: Vec<Wheel>, input: Option<String>) -> SingleTrack {
+        let Self { base, steer, steer_axis } = self;
+        SingleTrack { base, steer, steer_axis, front, rear, input: input.unwrap_or_else(|| "steer".to_owned()) }
     }
 }
 
@@ -190,8 +250,8 @@ mod tests {
             base: bodies.chassis,
             steer: bodies.front_upper,
             steer_axis: Vec3::new(0.0, 0.0, 1.0),
-            front: wheel(bodies.front_rim, 0.3, 0.06),
-            rear: wheel(bodies.rear_rim, 0.32, 0.095),
+            front: vec![wheel(bodies.front_rim, 0.3, 0.06)],
+            rear: vec![wheel(bodies.rear_rim, 0.32, 0.095)],
             input: "steer".into(),
         };
         Bench::new(vec![Force::new("handling", law)])

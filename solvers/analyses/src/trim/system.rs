@@ -193,7 +193,10 @@ impl<'p> TrimProblem<'p> {
         let live: Vec<usize> = (0..candidates.len()).filter(|&i| touched[i]).collect();
         self.implied = (0..candidates.len()).filter(|&i| !touched[i]).map(|i| candidates[i]).collect();
         let jacobian = scaled.select_rows(&live);
-        let (independent, rank) = rank_rows(&jacobian);
+        // loops close exactly: where something follows from the rest, it is a balance of forces
+        let closes = |&i: &usize| matches!(candidates[i], Row::Equation(e) if self.plant.equations()[e].kind == EquationKind::Constraint);
+        let first: Vec<bool> = live.iter().map(closes).collect();
+        let (independent, rank) = rank_rows(&jacobian, &first);
         if rank < self.unknowns.len() {
             let together = moving_together(&jacobian, &self.unknowns, &self.unknown_scale, &self.variables);
             return Err(match live.len() < self.unknowns.len() {
