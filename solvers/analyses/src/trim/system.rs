@@ -190,6 +190,17 @@ impl<'p> TrimProblem<'p> {
             };
             return Err(TrimError::NotFinite { equation });
         };
+        // a row that holds the norm of a quaternion: away from the first guess all four do, at it one
+        let guess = self.guess.clone();
+        if self.derivatives(&guess).is_ok() {
+            self.rows = candidates.clone();
+            let scaled = self.scaled_jacobian();
+            let rounding = 1e-13 * scaled.amax().max(1.0);
+            let kinematic = |row: Row| matches!(row, Row::Equation(e) if self.plant.equations()[e].kind == EquationKind::Kinematic);
+            for (row, touched) in touched.iter_mut().enumerate().filter(|(row, _)| kinematic(candidates[*row])) {
+                *touched &= scaled.row(row).iter().any(|e| e.abs() > rounding);
+            }
+        }
         let live: Vec<usize> = (0..candidates.len()).filter(|&i| touched[i]).collect();
         self.implied = (0..candidates.len()).filter(|&i| !touched[i]).map(|i| candidates[i]).collect();
         let jacobian = scaled.select_rows(&live);
