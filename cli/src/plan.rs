@@ -288,9 +288,11 @@ impl Plan {
         }
     }
 
-    /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the plant there.
-    pub fn start_from(&mut self, plant: &dyn Plant, pose: &[f64]) {
-        for (unknown, &value) in plant.unknowns().iter().zip(pose) {
+    /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose, the unknowns of the system there, and of the spins from the heights
+    /// of the wheels in it.
+    pub fn start_from(&mut self, system: &System, pose: &[f64], speed: f64) {
+        guess_spins(&mut self.trim, system.heights(pose.iter().copied()), speed);
+        for (unknown, &value) in system.unknowns().iter().zip(pose) {
             if unknown.kind == UnknownKind::Position && !unknown.cyclic {
                 self.trim.guess(&unknown.signal.name, value);
             }
@@ -366,7 +368,7 @@ impl Request {
         };
         let mut trim = Trim::steady(plant);
         let (v, r) = (format!("{base}.forward_speed"), format!("{base}.yaw_rate"));
-        guess_spins(&mut trim, system, speed);
+        guess_spins(&mut trim, system.design_heights(), speed);
         free_if_there(&mut trim, "steer.torque", 0.0)?;
         match drive {
             Drive::Engine => free_if_there(&mut trim, "drive.torque", 50.0)?,
@@ -488,9 +490,9 @@ impl Request {
     }
 }
 
-/// First guesses of the spin rates: forward speed over the height of the wheel center in the design pose.
-fn guess_spins(trim: &mut Trim, system: &System, speed: f64) {
-    for (joint, height) in system.design_heights() {
+/// First guesses of the spin rates: forward speed over the height of the wheel center.
+fn guess_spins(trim: &mut Trim, heights: Vec<(&str, f64)>, speed: f64) {
+    for (joint, height) in heights {
         if height > 0.05 {
             trim.guess(&format!("{joint}.spin_rate"), speed / height);
         }

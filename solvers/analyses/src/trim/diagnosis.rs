@@ -8,6 +8,21 @@ use crate::{Variable, Variables};
 use nalgebra::DMatrix;
 use problem::{Ending, Limit};
 
+/// Indices of a largest set of independent rows, each the largest of those that are left.
+pub(super) fn largest_rows(jacobian: &DMatrix<f64>) -> Vec<usize> {
+    let mut rest: Vec<nalgebra::DVector<f64>> = jacobian.row_iter().map(|row| row.transpose()).collect();
+    let mut chosen = Vec::new();
+    while let Some(best) = (0..rest.len()).filter(|i| !chosen.contains(i)).max_by(|&a, &b| rest[a].norm().total_cmp(&rest[b].norm())) {
+        let Some(direction) = rest[best].try_normalize(1e-6) else { break };
+        chosen.push(best);
+        for row in &mut rest {
+            let along = row.dot(&direction);
+            *row -= &direction * along;
+        }
+    }
+    chosen
+}
+
 /// Part of a row that must be independent of those chosen for it to be taken before others.
 const CLEARLY_INDEPENDENT: f64 = 1e-6;
 
