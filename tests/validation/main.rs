@@ -17,6 +17,7 @@ mod rides;
 mod rolling_disc;
 mod sel04;
 mod sharp1971;
+mod topologies;
 mod trends;
 
 use validation::evidence;
@@ -38,6 +39,7 @@ fn the_table_of_evidence_is_up_to_date() {
             &trends::EVIDENCE,
             &rides::EVIDENCE,
         ])
+        .chain(topologies::EVIDENCE)
         .copied()
         .collect();
     evidence::hold("validation", &rows);

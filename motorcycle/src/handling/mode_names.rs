@@ -94,11 +94,18 @@ pub const MODE_RULES: &[ModeRule] = &[
     oscillation(
         "front hop",
         "the front wheel hops on its tire",
-        &[("fork.travel", 1.0), ("front_*fork.travel", 1.0), ("front_*arm.angle", 1.0), ("*.pitch", 0.3)],
+        &[("fork.travel", 1.0), ("front_*fork.travel", 1.0), ("front_*arm.angle", 1.0), ("knee.angle", 1.0), ("*.pitch", 0.3)],
         (7.0, 25.0),
         ANY,
     ),
-    oscillation("rear hop", "the rear wheel hops on its tire", &[("swingarm.angle", 1.0), ("*.heave", 0.3)], (7.0, 25.0), ANY),
+    // the tail of a rear end in a loop or on a link: bevel housing, unit swing engine
+    oscillation(
+        "rear hop",
+        "the rear wheel hops on its tire",
+        &[("swingarm.angle", 1.0), ("final_drive.angle", 1.0), ("engine_swing.angle", 1.0), ("*.heave", 0.3)],
+        (7.0, 25.0),
+        ANY,
+    ),
     oscillation("side hop", "the wheel of the sidecar hops on its tire", &[("side_*arm.angle", 1.0), ("*.roll", 0.3)], (7.0, 25.0), ANY),
     oscillation(
         "tramp",
@@ -139,7 +146,7 @@ pub const MODE_RULES: &[ModeRule] = &[
     real(
         "front hop",
         "an overdamped front suspension",
-        &[("fork.travel", 1.0), ("front_*fork.travel", 1.0), ("front_*arm.angle", 1.0), ("*.pitch", 0.3)],
+        &[("fork.travel", 1.0), ("front_*fork.travel", 1.0), ("front_*arm.angle", 1.0), ("knee.angle", 1.0), ("*.pitch", 0.3)],
         (0.5, 60.0),
         Occurs::Often,
     ),
