@@ -137,7 +137,8 @@ mod tests {
     #[test]
     fn brakes_share_a_torque() {
         let (bodies, brake) = (tree().1, |wheel, share| Brake { wheel, rounding: 0.5, input: Some("brake".into()), share, floating: None });
-        let mut bench = Bench::new(vec![Force::new("front", brake(bodies.front_rim, 0.7)), Force::new("rear", brake(bodies.rear_rim, 0.3))]);
+        let mut bench =
+            Bench::new(vec![Force::new("front", brake(bodies.front_rim, 0.7)), Force::new("rear", brake(bodies.rear_rim, 0.3))]);
         bench.set("brake.torque", 300.0);
         for (wheel, torque) in [("front_wheel.rate", -210.0), ("rear_wheel.rate", -90.0)] {
             bench.set(wheel, 80.0);

@@ -19,9 +19,9 @@
 //! Source: function of centrifugal variators with rubber belts, e.g. G. Carbone, L. Mangialardi, G. Mantriota, Mechanism and Machine Theory 36 (2001)
 //! 1093–1114; the steady characteristic with corners is the usual idealization. Range: forward; the shift takes no time.
 
+use super::EngineMap;
 use super::chain::drive_input;
 use super::engine::{ENGINE_LIMIT, EngineMapDescription};
-use super::EngineMap;
 use mbody::assembly::{ElementDescription, Site};
 use mbody::description::quantity::dimension::{AngularSpeed, Number};
 use mbody::description::quantity::{Fraction, PositiveQuantity, Quantity};
@@ -136,7 +136,8 @@ impl ElementDescription for VariatorDescription {
         let wheel = site.joint_with("wheel", &self.wheel, "rad");
         let (lowest, highest) = (self.lowest.si() * self.r#final.si(), self.highest.si() * self.r#final.si());
         if lowest <= highest {
-            let message = format!("the lowest gear {} must have more engine turns per turn than the highest {}", self.lowest.si(), self.highest.si());
+            let message =
+                format!("the lowest gear {} must have more engine turns per turn than the highest {}", self.lowest.si(), self.highest.si());
             site.refuse("lowest", "out_of_range", message);
             return None;
         }

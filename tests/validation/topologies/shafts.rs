@@ -59,7 +59,8 @@ fn a_shaft_lifts_a_short_arm_and_a_torque_rod_tames_it() {
     });
     let lifted = (moments[1].0 - moments[0].0, moments[1].1 - moments[0].1);
     println!("duolever: moment of the spring {:.2} N m, by hand {:.2} N m", lifted.0, lifted.1);
-    let inertia = absolute(4.0).because("inertia of arm and wheel, 14 kg and 17 kg within a decimeter of the height of the pivot, and of the spin");
+    let inertia =
+        absolute(4.0).because("inertia of arm and wheel, 14 kg and 17 kg within a decimeter of the height of the pivot, and of the spin");
     agreement.near("duolever: moment of the spring, N m", lifted.0, lifted.1, &inertia);
     agreement.holds("duolever: the rear rises", lifted.0 < 0.0);
     // torque rod: arm and rod meet near the line from the contact that the load transfer asks for, so the spring hardly moves

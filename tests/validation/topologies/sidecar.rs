@@ -59,7 +59,12 @@ fn the_sidecar_pulls_to_its_side() {
         let drag = get(&format!("{element}.drag")) / f64::hypot(forward, lateral);
         moment += yaw((at[0], at[1] - roll * at[2]), (-drag * forward, -drag * lateral));
     }
-    agreement.near("moments about the vertical axis, N m", moment, 0.0, &absolute(0.1).because("what roll adds to the heading of the front wheel"));
+    agreement.near(
+        "moments about the vertical axis, N m",
+        moment,
+        0.0,
+        &absolute(0.1).because("what roll adds to the heading of the front wheel"),
+    );
     let pull = yaw((0.0, -1.14), (get("side_tire.longitudinal_force"), 0.0)) + yaw((0.0, -0.95), (-get("sidecar_aero.drag"), 0.0));
     agreement.holds(&format!("drag of the sidecar turns to the right: {pull} N m"), pull < -100.0);
     agreement.holds("the front tire pushes to the left", get("front_tire.lateral_force") > 50.0);
@@ -119,8 +124,22 @@ fn numbers(line: &str, from: &str, to: &str, by: [f64; 3]) -> String {
 fn flips(name: &str) -> bool {
     const OWNERS: [&str; 2] = ["steer.angle", "steer.torque"];
     const PARTS: [&str; 16] = [
-        "roll", "lateral", "yaw", "slip_angle", "camber", "aligning_moment", "overturning_moment", "contact_y", "curvature", "velocity_y",
-        "acceleration_y", "chassis.y", "steer.rate", "steering_damper", "steering_stop", "force_y",
+        "roll",
+        "lateral",
+        "yaw",
+        "slip_angle",
+        "camber",
+        "aligning_moment",
+        "overturning_moment",
+        "contact_y",
+        "curvature",
+        "velocity_y",
+        "acceleration_y",
+        "chassis.y",
+        "steer.rate",
+        "steering_damper",
+        "steering_stop",
+        "force_y",
     ];
     const SAME: [&str; 1] = ["rolling_moment"];
     OWNERS.contains(&name) || (PARTS.iter().any(|part| name.contains(part)) && !SAME.iter().any(|part| name.contains(part)))

@@ -68,7 +68,8 @@ fn the_variator_carries_the_power() {
     let speed = get("chassis.forward_speed");
     agreement.holds(&format!("top speed {speed} m/s; 110 to 115 km/h are published"), (0.9 * 30.6..1.1 * 31.9).contains(&speed));
     let engine = 0.85 * get("engine.torque") * get("engine.speed");
-    let rolling: f64 = ["front_tire", "rear_tire"].iter().map(|t| -get(&format!("{t}.rolling_moment")) / get(&format!("{t}.effective_radius"))).sum();
+    let rolling: f64 =
+        ["front_tire", "rear_tire"].iter().map(|t| -get(&format!("{t}.rolling_moment")) / get(&format!("{t}.effective_radius"))).sum();
     agreement.near("power, W", engine, (get("aero.drag") + rolling) * speed, &relative(0.03).because("slip of the driven tire"));
     let city = vehicle.state(&running(&[15.0]));
     let shift = 7500.0 * std::f64::consts::TAU / 60.0;

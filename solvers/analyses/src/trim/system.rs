@@ -193,7 +193,8 @@ impl<'p> TrimProblem<'p> {
         // four rows hold the norm of a quaternion: the one that does it best at the first guess speaks for them
         let guess = self.guess.clone();
         if self.derivatives(&guess).is_ok() {
-            let kinematic = |i: &usize| matches!(candidates[*i], Row::Equation(e) if self.plant.equations()[e].kind == EquationKind::Kinematic);
+            let kinematic =
+                |i: &usize| matches!(candidates[*i], Row::Equation(e) if self.plant.equations()[e].kind == EquationKind::Kinematic);
             let rows: Vec<usize> = (0..candidates.len()).filter(kinematic).collect();
             self.rows = rows.iter().map(|&i| candidates[i]).collect();
             let kept = largest_rows(&self.scaled_jacobian());
