@@ -244,6 +244,9 @@ const MOST_POINTS: f64 = 1e6;
 /// find its balance on one wheel.
 const FIRST_HEAVE: f64 = -0.01;
 
+/// Slip beyond which a first guess of a spin may be past the peak of the friction, from where Newton's method does not come back.
+const MOST_SLIP: f64 = 0.05;
+
 /// States of tires that are zero where a vehicle stands upright.
 const LATERAL_STATES: [&str; 3] = [".carcass_lateral", ".lagged_lateral_force", ".lagged_lateral_slip"];
 
@@ -288,10 +291,15 @@ impl Plan {
         }
     }
 
-    /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose, the unknowns of the system there, and of the spins from the heights
-    /// of the wheels in it.
+    /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the system there. Where wheels stand much higher or lower in it than in the
+    /// design pose, the guesses of their spins follow.
     pub fn start_from(&mut self, system: &System, pose: &[f64], speed: f64) {
-        guess_spins(&mut self.trim, system.heights(pose.iter().copied()), speed);
+        let moved = |((joint, height), (_, design)): (_, (_, f64))| {
+            let (joint, height): (&str, f64) = (joint, height);
+            ((height - design).abs() > MOST_SLIP * design.abs()).then_some((joint, height))
+        };
+        let heights = system.heights(pose.iter().copied()).into_iter().zip(system.design_heights());
+        guess_spins(&mut self.trim, heights.filter_map(moved).collect(), speed);
         for (unknown, &value) in system.unknowns().iter().zip(pose) {
             if unknown.kind == UnknownKind::Position && !unknown.cyclic {
                 self.trim.guess(&unknown.signal.name, value);
