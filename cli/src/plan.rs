@@ -12,7 +12,8 @@ use mbody::description::finding::Finding;
 use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Curvature, Length, Number, Speed, Torque};
 use mbody::description::quantity::{Dimension, Dimensioned, QuantityError, parse_quantity};
 use mbody::dynamics::System;
-use problem::{Plant, UnknownKind};
+use motorcycle::steering::STANDS;
+use problem::{Plant, Unknown, UnknownKind};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -256,6 +257,9 @@ const MOST_POINTS: f64 = 1e6;
 /// find its balance on one wheel.
 const FIRST_HEAVE: f64 = -0.01;
 
+/// Slip beyond which a first guess of a spin may be past the peak of the friction, from where Newton's method does not come back.
+const MOST_SLIP: f64 = 0.05;
+
 /// States of tires that are zero where a vehicle stands upright.
 const LATERAL_STATES: [&str; 3] = [".carcass_lateral", ".lagged_lateral_force", ".lagged_lateral_slip"];
 
@@ -302,10 +306,17 @@ impl Plan {
         }
     }
 
-    /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the plant there.
-    pub fn start_from(&mut self, plant: &dyn Plant, pose: &[f64]) {
-        let pitch = format!("{}.pitch", base_name(plant).unwrap_or_default());
-        for (unknown, &value) in plant.unknowns().iter().zip(pose) {
+    /// Takes the first guess of the shape (non-cyclic coordinates) from a known pose: the unknowns of the system there. Where wheels stand much higher or lower in it than in the
+    /// design pose, the guesses of their spins follow.
+    pub fn start_from(&mut self, system: &System, pose: &[f64], speed: f64) {
+        let moved = |((joint, height), (_, design)): (_, (_, f64))| {
+            let (joint, height): (&str, f64) = (joint, height);
+            ((height - design).abs() > MOST_SLIP * design.abs()).then_some((joint, height))
+        };
+        let heights = system.heights(pose.iter().copied()).into_iter().zip(system.design_heights());
+        guess_spins(&mut self.trim, heights.filter_map(moved).collect(), speed);
+        let pitch = format!("{}.pitch", base_of(system.unknowns()).unwrap_or_default());
+        for (unknown, &value) in system.unknowns().iter().zip(pose) {
             if unknown.kind == UnknownKind::Position && !unknown.cyclic {
                 let nose_up = if unknown.signal.name == pitch { self.uphill } else { 0.0 };
                 self.trim.guess(&unknown.signal.name, value - nose_up);
@@ -316,7 +327,16 @@ impl Plan {
 
 /// The name of the base link: the owner of `<base>.forward_speed`.
 pub fn base_name(plant: &dyn Plant) -> Option<String> {
-    plant.unknowns().iter().find_map(|u| u.signal.name.strip_suffix(".forward_speed").map(str::to_owned))
+    base_of(plant.unknowns())
+}
+
+fn base_of(unknowns: &[Unknown]) -> Option<String> {
+    unknowns.iter().find_map(|u| u.signal.name.strip_suffix(".forward_speed").map(str::to_owned))
+}
+
+/// Whether the vehicle stands on its wheels: then a turn is given and its roll is found, where a leaning one is given its roll.
+pub fn stands(plant: &dyn Plant) -> bool {
+    plant.outputs().iter().any(|output| output.name == STANDS)
 }
 
 fn fix_if_there(trim: &mut Trim, name: &str, value: f64) -> Result<(), Failure> {
@@ -341,14 +361,23 @@ impl Request {
     }
 
     /// The static pose: everything at rest, upright, no lateral deflection.
+    ///
+    /// A vehicle that stands on its wheels finds its roll. Its wheels may lean a little and push to the side, and a tire at rest has no friction but that of
+    /// slip: what holds it in place is a creep of some micrometers a second, in all directions, against the rolling resistance.
     pub fn at_rest(&self, plant: &dyn Plant) -> Result<Plan, Failure> {
-        let mut trim = Trim::at_rest(plant);
+        let stands = stands(plant);
+        let mut trim = if stands { Trim::steady(plant) } else { Trim::at_rest(plant) };
         if let Some(base) = base_name(plant) {
-            fix_if_there(&mut trim, &format!("{base}.roll"), 0.0)?;
+            if !stands {
+                fix_if_there(&mut trim, &format!("{base}.roll"), 0.0)?;
+            }
             trim.guess(&format!("{base}.heave"), FIRST_HEAVE);
         }
+        if stands {
+            free_if_there(&mut trim, "steer.torque", 0.0)?;
+        }
         fix_if_there(&mut trim, "steer.angle", 0.0)?;
-        for unknown in plant.unknowns() {
+        for unknown in plant.unknowns().iter().filter(|_| !stands) {
             let name = &unknown.signal.name;
             if unknown.kind == UnknownKind::State && LATERAL_STATES.iter().any(|state| name.ends_with(state)) {
                 fix_if_there(&mut trim, name, 0.0)?;
@@ -368,7 +397,7 @@ impl Request {
         };
         let mut trim = Trim::steady(plant);
         let (v, r) = (format!("{base}.forward_speed"), format!("{base}.yaw_rate"));
-        guess_spins(&mut trim, system, speed);
+        guess_spins(&mut trim, system.design_heights(), speed);
         free_if_there(&mut trim, "steer.torque", 0.0)?;
         match drive {
             Drive::Engine => free_if_there(&mut trim, "drive.torque", 50.0)?,
@@ -388,7 +417,9 @@ impl Request {
             largest_steps.push(10.0);
         }
         let at = speed.max(1.0);
-        match self.turn.as_ref().map_or(Turn::Lean, |t| t.0) {
+        // straight on: upright where the lean is chosen, without yaw rate where it is found
+        let straight = if stands(plant) { Turn::YawRate } else { Turn::Lean };
+        match self.turn.as_ref().map_or(straight, |t| t.0) {
             Turn::Lean => {
                 trim.give(&format!("{base}.roll"), 0.0)?;
                 largest_steps.push(0.18);
@@ -491,9 +522,9 @@ impl Request {
     }
 }
 
-/// First guesses of the spin rates: forward speed over the height of the wheel center in the design pose.
-fn guess_spins(trim: &mut Trim, system: &System, speed: f64) {
-    for (joint, height) in system.design_heights() {
+/// First guesses of the spin rates: forward speed over the height of the wheel center.
+fn guess_spins(trim: &mut Trim, heights: Vec<(&str, f64)>, speed: f64) {
+    for (joint, height) in heights {
         if height > 0.05 {
             trim.guess(&format!("{joint}.spin_rate"), speed / height);
         }

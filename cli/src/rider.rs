@@ -324,9 +324,7 @@ impl Task<'_> {
             }
             *per = (value(faster, "drive.torque") - drive) / PROBES.0;
             let brakes = value(slower, "front_brake.torque") + value(slower, "rear_brake.torque");
-            let load = |p: &Point| {
-                value(p, "front_tire.normal_force") / (value(p, "front_tire.normal_force") + value(p, "rear_tire.normal_force"))
-            };
+            let load = |p: &Point| loads_of(&steady.signals, p, "front") / loads_of(&steady.signals, p, "");
             shares.push((brakes / -(drive + *per * PROBES.1), load(level), (load(slower) - load(level)) / -PROBES.1));
         }
         let mean = |f: &dyn Fn(&(f64, f64, f64)) -> f64| shares.iter().map(f).sum::<f64>() / shares.len() as f64;
@@ -350,6 +348,13 @@ impl Driving {
     fn none(speeds: &[f64]) -> Self {
         Self { torque_per_acceleration: vec![1.0; speeds.len()], brake_per_drive: 1.0, front_share: [0.5, 0.0] }
     }
+}
+
+/// Load of all tires whose names begin like this, N: `front_tire`, or `front_left_tire` and `front_right_tire`.
+fn loads_of(signals: &[Signal], point: &Point, beginning: &str) -> f64 {
+    let loads = signals.iter().enumerate().filter(|(_, s)| s.name.starts_with(beginning) && s.name.ends_with("_tire.normal_force"));
+    let loads: Vec<f64> = loads.map(|(k, _)| point.value(k)).collect();
+    if loads.is_empty() { f64::NAN } else { loads.iter().sum() }
 }
 
 /// States that the speed section holds: the speed itself and the spins of the wheels.

@@ -3,7 +3,7 @@
 use crate::arguments::unknown_name;
 use crate::backend::AlgebraicBackend;
 use crate::output::{Given, Point, Progress};
-use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
+use crate::plan::{Drive, Plan, Prescribed, Request, Turn, stands};
 use crate::{Failure, backend, trust};
 use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};
@@ -195,7 +195,7 @@ impl Job<'_> {
         let Some(speed) = goals.first().and_then(|g| g.speed) else { return Ok(None) };
         let mut plant = TreePlant::new(self.system.clone());
         let mut plan = self.request.moving(&plant, self.system, Drive::Engine, speed)?;
-        plan.start_from(&plant, &self.rest);
+        plan.start_from(&self.system, &self.rest, speed);
         let mut problem = TrimProblem::new(&mut plant, &plan.trim)?;
         let mut method = (self.backend.make)();
         let walk = Walk { largest_steps: plan.largest_steps.clone(), ..Walk::default() };
@@ -262,12 +262,17 @@ impl Job<'_> {
             (speed, _) => {
                 let speed = speed.unwrap_or(50.0);
                 match request.turn.as_ref().map(|t| t.0) {
-                    Some(Turn::SteerTorque) => self.with_torque(speed, goal)?,
+                    Some(Turn::SteerTorque) if !self.stands() => self.with_torque(speed, goal)?,
                     _ => vec![self.moving(speed, goal)?],
                 }
             }
         };
         Ok(found.into_iter().map(|p| to_point(given.clone(), p)).collect())
+    }
+
+    /// A vehicle that stands on its wheels turns in one way with a given steering torque.
+    fn stands(&self) -> bool {
+        stands(&TreePlant::new(self.system.clone()))
     }
 
     fn at_rest(&self) -> Result<TrimPoint, Failure> {
@@ -285,7 +290,7 @@ impl Job<'_> {
         let with = |drive| -> Result<TrimPoint, Failure> {
             let mut plant = TreePlant::new(system.clone());
             let mut plan = request.moving(&plant, system, drive, speed)?;
-            plan.start_from(&plant, &self.rest);
+            plan.start_from(&self.system, &self.rest, speed);
             walk(&mut plant, &plan, self.backend, &goals).map_err(Failure::Trim)
         };
         if goal.acceleration.is_none_or(|a| a >= 0.0) {

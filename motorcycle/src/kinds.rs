@@ -2,8 +2,8 @@
 
 use crate::aero::AerodynamicsDescription;
 use crate::brake::BrakeDescription;
-use crate::drivetrain::{ChainDescription, EngineDescription, EngineRotorDescription, ShaftDriveDescription};
-use crate::steering::{SingleTrackDescription, SteeringDamperDescription, SteeringStopDescription};
+use crate::drivetrain::{ChainDescription, EngineDescription, EngineRotorDescription, ShaftDriveDescription, VariatorDescription};
+use crate::steering::{MultiTrackDescription, SingleTrackDescription, SteeringDamperDescription, SteeringStopDescription};
 use crate::suspension::{SwingarmShockDescription, TelescopicForkDescription};
 use crate::tire::{ThinDiscLinearDescription, TireDescription};
 use mbody::assembly::ElementKind;
@@ -21,11 +21,13 @@ pub const KINDS: &[ElementKind] = &[
     ElementKind::of::<ShaftDriveDescription>(),
     ElementKind::of::<EngineDescription>(),
     ElementKind::of::<EngineRotorDescription>(),
+    ElementKind::of::<VariatorDescription>(),
     ElementKind::of::<BrakeDescription>(),
     ElementKind::of::<AerodynamicsDescription>(),
     ElementKind::of::<SteeringDamperDescription>(),
     ElementKind::of::<SteeringStopDescription>(),
     ElementKind::of::<SingleTrackDescription>(),
+    ElementKind::of::<MultiTrackDescription>(),
 ];
 
 #[cfg(test)]
@@ -49,10 +51,12 @@ mod tests {
         reads::<ShaftDriveDescription>();
         reads::<EngineDescription>();
         reads::<EngineRotorDescription>();
+        reads::<VariatorDescription>();
         reads::<BrakeDescription>();
         reads::<AerodynamicsDescription>();
         reads::<SteeringDamperDescription>();
         reads::<SteeringStopDescription>();
         reads::<SingleTrackDescription>();
+        reads::<MultiTrackDescription>();
     }
 }

@@ -36,7 +36,29 @@ impl Library for Extended<'_> {
     }
 }
 
+/// A bundled description whose files are rewritten.
+struct Rewritten<'a> {
+    source: &'a Source,
+    rewrite: fn(&str) -> String,
+}
+
+impl Library for Rewritten<'_> {
+    fn text(&self, name: &str) -> Option<Cow<'_, str>> {
+        Some(Cow::Owned((self.rewrite)(&self.source.text(name)?)))
+    }
+}
+
 impl Vehicle {
+    /// A bundled vehicle whose files are rewritten before they are read.
+    ///
+    /// # Panics
+    /// It does not assemble.
+    pub fn rewritten(name: &str, rewrite: fn(&str) -> String) -> Self {
+        let source = Source::find(name).unwrap_or_else(|findings| panic!("{findings}"));
+        let (assembled, findings) = assemble(&source.file, &Rewritten { source: &source, rewrite }, &standard_kinds(), &[]);
+        Self { system: assembled.unwrap_or_else(|| panic!("{name}: {findings}")).system }
+    }
+
     /// A bundled vehicle.
     ///
     /// # Panics

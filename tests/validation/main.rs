@@ -18,6 +18,7 @@ mod rolling_disc;
 mod sel04;
 mod sharp1971;
 mod tire_property_files;
+mod topologies;
 mod trends;
 
 use validation::evidence;
@@ -40,6 +41,7 @@ fn the_table_of_evidence_is_up_to_date() {
             &tire_property_files::EVIDENCE,
             &rides::EVIDENCE,
         ])
+        .chain(topologies::EVIDENCE)
         .copied()
         .collect();
     evidence::hold("validation", &rows);

@@ -235,7 +235,13 @@ fn random_rides_end_with_a_name() {
                 );
                 for (signal, column) in history.signals.iter().zip(&history.columns) {
                     let lost = column.iter().position(|v| !v.is_finite());
-                    assert!(lost.is_none(), "{k}: `{}` is not finite at {:?} s of {last} s, {:?}\n{text}", signal.name, lost.map(|i| history.time[i]), history.outcome);
+                    assert!(
+                        lost.is_none(),
+                        "{k}: `{}` is not finite at {:?} s of {last} s, {:?}\n{text}",
+                        signal.name,
+                        lost.map(|i| history.time[i]),
+                        history.outcome
+                    );
                 }
                 assert!(rode.ending() != "failed" || history.outcome.because.is_some(), "{k}: no cause\n{text}");
                 because = history.outcome.because.clone();

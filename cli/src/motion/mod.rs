@@ -33,15 +33,20 @@ const SHORTEST_STEP: f64 = 5e-6;
 const FEWEST_STEPS: usize = 2000;
 /// The relative tolerance at which absolute tolerances are those that the signals declare.
 const USUAL_TOLERANCE: f64 = 1e-6;
-/// What table and figure show of a vehicle, where the user does not choose.
-const VEHICLE: [&str; 7] = [
+/// How many coordinates and velocities table and figure show of a mechanism, where the user does not choose.
+const SHOWN: usize = 7;
+/// What they show of a vehicle.
+const VEHICLE: [&str; 10] = [
     "chassis.forward_speed",
     "chassis.roll",
     "chassis.roll_rate",
     "chassis.yaw_rate",
     "steer.angle",
     "front_tire.normal_force",
+    "front_left_tire.normal_force",
+    "front_right_tire.normal_force",
     "rear_tire.normal_force",
+    "side_tire.normal_force",
 ];
 
 /// The formulations on offer; the first is the default.
@@ -358,9 +363,9 @@ fn shown(signals: &[Signal], plant: &dyn Plant) -> Vec<usize> {
         };
         let (coordinates, velocities): (Vec<_>, Vec<_>) =
             (of(UnknownKind::Position, true).collect(), of(UnknownKind::Velocity, false).collect());
-        let room = VEHICLE.len() - velocities.len().min(3);
+        let room = SHOWN - velocities.len().min(3);
         shown = coordinates.into_iter().take(room).collect();
-        shown.extend(velocities.into_iter().take(VEHICLE.len() - shown.len()));
+        shown.extend(velocities.into_iter().take(SHOWN - shown.len()));
     }
     shown.extend(find(ENERGY));
     shown

@@ -54,6 +54,8 @@ const RULES: &[(&str, &str, f64)] = &[
     // steering torque in the sense of the yaw rate: both factors change sign
     ("steer", "torque_normalized", 1.0),
     ("steer", "*", -1.0),
+    ("*_steer", "angle", -1.0),
+    ("*_steer", "rate", -1.0),
     ("chassis", "y", -1.0),
     ("chassis", "z", -1.0),
     ("chassis", "heave", -1.0),
@@ -64,8 +66,7 @@ const RULES: &[(&str, &str, f64)] = &[
     ("chassis", "yaw", -1.0),
     ("chassis", "yaw_*", -1.0),
     // positive rotation about y to the left: forward; about y to the right: backward
-    ("front_wheel", "spin_*", -1.0),
-    ("rear_wheel", "spin_*", -1.0),
+    ("*_wheel", "spin_*", -1.0),
     ("*_tire", "rolling_moment", -1.0),
     ("*_tire", "aligning_moment", -1.0),
     ("*_road", "height", -1.0),
@@ -123,6 +124,7 @@ mod tests {
             engine.speed drivetrain.gear swingarm.force_x swingarm.moment_x steer.torque_normalized speed lean acceleration";
         let changed = "chassis.y chassis.heave chassis.heave_rate chassis.lateral_speed chassis.pitch chassis.pitch_rate chassis.yaw \
             chassis.yaw_rate chassis.yaw_acceleration steer.angle steer.rate steer.torque front_wheel.spin_rate rear_wheel.spin_rate \
+            side_wheel.spin_rate front_left_wheel.spin_rate front_left_steer.angle \
             front_tire.lateral_force rear_tire.rolling_moment rear_tire.aligning_moment front_tire.carcass_lateral front_road.height \
             rear_road.height_rate road saddle.height saddle.velocity_y saddle.acceleration_z rate(chassis.pitch_rate) wind.lateral swingarm.force_y swingarm.force_z swingarm.moment_y swingarm.moment_z \
             lateral_acceleration curvature radius yaw_rate steer_torque";

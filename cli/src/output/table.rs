@@ -18,13 +18,16 @@ pub(super) const KIND: Kind = Kind {
 };
 
 /// What a table of several points shows of the signals that exist, where the user does not choose.
-const PREFERRED: [&str; 7] = [
+const PREFERRED: [&str; 10] = [
     "chassis.roll",
     "steer.angle",
     "steer.torque",
     "drive.torque",
     "front_tire.normal_force",
+    "front_left_tire.normal_force",
+    "front_right_tire.normal_force",
     "rear_tire.normal_force",
+    "side_tire.normal_force",
     "rear_tire.friction_use",
 ];
 

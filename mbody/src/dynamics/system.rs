@@ -433,8 +433,13 @@ impl System {
 
     /// Height of every body's origin in the design pose, by the name of its joint, m.
     pub fn design_heights(&self) -> Vec<(&str, f64)> {
+        self.heights(self.base_unknowns.iter().map(|u| u.design))
+    }
+
+    /// Height of every body's origin where the unknowns begin with these coordinates, by the name of its joint, m.
+    pub fn heights(&self, coordinates: impl Iterator<Item = f64>) -> Vec<(&str, f64)> {
         let mut w = crate::stage::Workspace::<f64>::new(&self.model);
-        w.to_coordinates(&self.model, self.base_unknowns[..self.model.layout.nq()].iter().map(|u| u.design));
+        w.to_coordinates(&self.model, coordinates.take(self.model.layout.nq()));
         let height = |i: usize| w.world.X_WB[i].p.z;
         self.model.bodies.iter().enumerate().skip(1).map(|(i, b)| (b.joint_name.as_str(), height(i))).collect()
     }

@@ -143,7 +143,7 @@ impl GearsDescription {
 }
 
 impl EngineMapDescription {
-    fn map(self, site: &mut Site<'_>) -> Option<EngineMap> {
+    pub(super) fn map(self, site: &mut Site<'_>) -> Option<EngineMap> {
         let settings: Vec<f64> = self.throttle.into_iter().map(Quantity::si).collect();
         let speeds: Vec<f64> = self.speed.into_iter().map(Quantity::si).collect();
         let rows: Vec<Vec<f64>> = self.torque.into_iter().map(|row| row.into_iter().map(Quantity::si).collect()).collect();

@@ -1,4 +1,4 @@
-//! Chains, shafts, engines, gears.
+//! Chains, shafts, engines, gears, variators.
 
 mod chain;
 mod chain_run;
@@ -7,6 +7,7 @@ mod engine_map;
 mod engine_rotor;
 mod shaft_drive;
 pub mod squat;
+mod variator;
 
 pub use chain::{Chain, ChainDescription};
 pub use chain_run::{ChainRun, Run, Sprocket};
@@ -14,3 +15,4 @@ pub use engine::{ENGINE_LIMIT, Engine, EngineDescription};
 pub use engine_map::{EngineMap, EngineMapError};
 pub use engine_rotor::{EngineRotor, EngineRotorDescription};
 pub use shaft_drive::{ShaftDrive, ShaftDriveDescription};
+pub use variator::{Variator, VariatorDescription};

@@ -1,4 +1,4 @@
-//! How the modes of a single-track vehicle are recognized.
+//! How the modes of a vehicle are recognized: single tracks, and those with more wheels beside.
 //!
 //! Out of the plane of symmetry: weave, wobble and rear wobble oscillate, capsize and caster are real, lags of the tires are fast and real. In the
 //! plane: bounce, pitch and the hops of the wheels; a suspension that is damped beyond its critical value has two real ones of the same name.
@@ -91,8 +91,29 @@ pub const MODE_RULES: &[ModeRule] = &[
         (1.0, 7.0),
         ANY,
     ),
-    oscillation("front hop", "the front wheel hops on its tire", &[("fork.travel", 1.0), ("*.pitch", 0.3)], (7.0, 25.0), ANY),
-    oscillation("rear hop", "the rear wheel hops on its tire", &[("swingarm.angle", 1.0), ("*.heave", 0.3)], (7.0, 25.0), ANY),
+    oscillation(
+        "front hop",
+        "the front wheel hops on its tire",
+        &[("fork.travel", 1.0), ("front_*fork.travel", 1.0), ("front_*arm.angle", 1.0), ("knee.angle", 1.0), ("*.pitch", 0.3)],
+        (7.0, 25.0),
+        ANY,
+    ),
+    // the tail of a rear end in a loop or on a link: bevel housing, unit swing engine
+    oscillation(
+        "rear hop",
+        "the rear wheel hops on its tire",
+        &[("swingarm.angle", 1.0), ("final_drive.angle", 1.0), ("engine_swing.angle", 1.0), ("*.heave", 0.3)],
+        (7.0, 25.0),
+        ANY,
+    ),
+    oscillation("side hop", "the wheel of the sidecar hops on its tire", &[("side_*arm.angle", 1.0), ("*.roll", 0.3)], (7.0, 25.0), ANY),
+    oscillation(
+        "tramp",
+        "two front wheels hop against each other and tilt their linkage",
+        &[("tilt*.angle", 1.0), ("front_*fork.travel", 0.9)],
+        (7.0, 25.0),
+        ANY,
+    ),
     oscillation("rider lean", "the rider's upper body leans against the saddle", &[("rider_lean.*", 1.0)], (0.5, 15.0), ANY),
     // structure: names of joints as in the bundled vehicles
     oscillation("frame twist", "the frame twists ahead of the engine", &[("frame_torsion.*", 1.0)], (10.0, 40.0), ANY),
@@ -122,7 +143,14 @@ pub const MODE_RULES: &[ModeRule] = &[
         (2.0, 5.0),
         Occurs::Once,
     ),
-    real("front hop", "an overdamped front suspension", &[("fork.travel", 1.0), ("*.pitch", 0.3)], (0.5, 60.0), Occurs::Often),
+    real(
+        "front hop",
+        "an overdamped front suspension",
+        &[("fork.travel", 1.0), ("front_*fork.travel", 1.0), ("front_*arm.angle", 1.0), ("knee.angle", 1.0), ("*.pitch", 0.3)],
+        (0.5, 60.0),
+        Occurs::Often,
+    ),
+    real("tramp", "what is left of the tramp where it does not oscillate", &[("tilt*.angle", 1.0)], (0.5, 60.0), Occurs::Often),
     real("rear hop", "an overdamped rear suspension", &[("swingarm.angle", 1.0), ("*.heave", 0.3)], (0.5, 60.0), Occurs::Often),
     ModeRule {
         name: "tire",
@@ -136,7 +164,7 @@ pub const MODE_RULES: &[ModeRule] = &[
     ModeRule {
         name: "front wheel spin",
         about: "the front wheel comes up to speed against its slip",
-        takes_part: &[("front_wheel.spin_rate", 1.0)],
+        takes_part: &[("front_wheel.spin_rate", 1.0), ("front_*_wheel.spin_rate", 1.0)],
         frequency: (2.0, 5000.0),
         damping: (0.5, 1.0),
         nature: Nature::Any,
@@ -146,6 +174,15 @@ pub const MODE_RULES: &[ModeRule] = &[
         name: "rear wheel spin",
         about: "the rear wheel comes up to speed against its slip",
         takes_part: &[("rear_wheel.spin_rate", 1.0)],
+        frequency: (2.0, 5000.0),
+        damping: (0.5, 1.0),
+        nature: Nature::Any,
+        occurs: Occurs::Often,
+    },
+    ModeRule {
+        name: "side wheel spin",
+        about: "the wheel of the sidecar comes up to speed against its slip",
+        takes_part: &[("side_wheel.spin_rate", 1.0)],
         frequency: (2.0, 5000.0),
         damping: (0.5, 1.0),
         nature: Nature::Any,

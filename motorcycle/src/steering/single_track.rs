@@ -16,6 +16,8 @@
 //! | κ₀, y_r | 1/m | kinematic curvature: that of the path of P_r if no wheel slipped sideways, positive to the left; y_r across the contact at the rear |
 //! | V₀, r₀ | | 0.001 m/s, 0.001 rad/s: keep the signals differentiable at rest and in straight running |
 //!
+//! Where several wheels stand side by side in front or at the rear ([`super::MultiTrack`]), P, x, n and y are means over them.
+//!
 //! Source: V. Cossalter, *Motorcycle Dynamics* (2006), chapters 1, 4 and 7 (definitions). Range: a road that inputs tell, level where no road is named; lean as in `mbody`'s contact geometry.
 
 use crate::road::Footing;
@@ -52,7 +54,7 @@ pub struct Wheel {
 
 impl Wheel {
     /// Contact, spin axis and road; `first` is the place of the road among the inputs.
-    fn contact<S: SystemScalar>(&self, at: &Evaluated<'_, S>, first: usize) -> (Contact<S>, Vec3<S>, TangentPlane<S>) {
+    pub(super) fn contact<S: SystemScalar>(&self, at: &Evaluated<'_, S>, first: usize) -> (Contact<S>, Vec3<S>, TangentPlane<S>) {
         let X = at.X_WB(self.body);
         let axis = X.R.times_const(self.axis);
         let plane = match &self.road {
@@ -62,8 +64,60 @@ impl Wheel {
         (Contact::with_plane(&self.profile, X.p, axis, &plane), axis, plane)
     }
 
-    fn inputs(&self) -> Vec<InputDeclared> {
+    pub(super) fn inputs(&self) -> Vec<InputDeclared> {
         self.road.as_ref().map(Footing::inputs).unwrap_or_default()
+    }
+}
+
+/// Number of inputs that tell the roads of these wheels.
+pub(super) fn inputs_of(wheels: &[Wheel]) -> usize {
+    wheels.iter().filter(|wheel| wheel.road.is_some()).count() * QUANTITIES.len()
+}
+
+/// Where an axle touches the road: means over its wheels.
+struct Touch<S> {
+    point: Vec3<S>,
+    forward: Vec3<S>,
+    across: Vec3<S>,
+    axis: Vec3<S>,
+    /// A point of the road and its normal.
+    ground: Vec3<S>,
+    normal: Vec3<S>,
+}
+
+impl<S: SystemScalar> Touch<S> {
+    /// `first` is the place of the roads among the inputs.
+    fn of(wheels: &[Wheel], at: &Evaluated<'_, S>, first: usize) -> Self {
+        let touch = |k: usize| {
+            let (contact, axis, road) = wheels[k].contact(at, first + inputs_of(&wheels[..k]));
+            let (forward, across) = (contact.frame.x, contact.frame.y);
+            Self { point: contact.point, forward, across, axis, ground: road.point, normal: road.normal }
+        };
+        let mut sum = touch(0);
+        if wheels.len() == 1 {
+            return sum;
+        }
+        for k in 1..wheels.len() {
+            let one = touch(k);
+            sum = Self {
+                point: sum.point + one.point,
+                forward: sum.forward + one.forward,
+                across: sum.across + one.across,
+                axis: sum.axis + one.axis,
+                ground: sum.ground + one.ground,
+                normal: sum.normal + one.normal,
+            };
+        }
+        let unit = |v: Vec3<S>| v.scaled(v.norm().recip());
+        let mean = |v: Vec3<S>| v.scaled(S::from_f64(1.0 / wheels.len() as f64));
+        Self {
+            point: mean(sum.point),
+            forward: unit(sum.forward),
+            across: unit(sum.across),
+            axis: unit(sum.axis),
+            ground: mean(sum.ground),
+            normal: unit(sum.normal),
+        }
     }
 }
 
@@ -76,13 +130,16 @@ pub struct SingleTrack {
     pub steer: BodyIndex,
     /// Unit axis of the steering, upward, in that body.
     pub steer_axis: Vec3<f64>,
-    /// Front wheel.
-    pub front: Wheel,
-    /// Rear wheel.
-    pub rear: Wheel,
+    /// Front wheels, at least one.
+    pub front: Vec<Wheel>,
+    /// Rear wheels, at least one.
+    pub rear: Vec<Wheel>,
     /// First part of the name of the input: `steer` reads `steer.torque`.
     pub input: String,
 }
+
+/// Number of outputs.
+pub(super) const OUTPUTS: usize = 7;
 
 impl ForceLaw for SingleTrack {
     fn declare(&self, _element: &str) -> Declared {
@@ -98,7 +155,7 @@ impl ForceLaw for SingleTrack {
             output("normal_trail", "m", "distance of the front contact point from the steering axis, positive behind it"),
             output("kinematic_curvature", "1/m", "curvature of the rear contact's path if no wheel slipped sideways, positive to the left"),
         ];
-        let inputs = [torque].into_iter().chain(self.front.inputs()).chain(self.rear.inputs()).collect();
+        let inputs = [torque].into_iter().chain(self.front.iter().chain(&self.rear).flat_map(Wheel::inputs)).collect();
         Declared { inputs, outputs, ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {
@@ -107,16 +164,16 @@ impl ForceLaw for SingleTrack {
         out.output(1, r / sabs(V, SPEED_ROUNDING));
         out.output(2, at.input(0) * r / sabs(r, YAW_RATE_ROUNDING));
 
-        let behind = 1 + if self.front.road.is_some() { QUANTITIES.len() } else { 0 };
-        let ((front, axle, road), (rear, ..)) = (self.front.contact(at, 1), self.rear.contact(at, behind));
+        let behind = 1 + inputs_of(&self.front);
+        let (front, rear) = (Touch::of(&self.front, at, 1), Touch::of(&self.rear, at, behind));
         out.output(3, (front.point - rear.point).norm());
         let X = at.X_WB(self.steer);
         let s = X.R.times_const(self.steer_axis);
-        let on_road = X.p - s.scaled((X.p - road.point).dot(road.normal) / s.dot(road.normal));
-        out.output(4, (on_road - front.point).dot(front.frame.x));
-        out.output(5, (front.point - X.p).cross(s).dot(axle));
+        let on_road = X.p - s.scaled((X.p - front.ground).dot(front.normal) / s.dot(front.normal));
+        out.output(4, (on_road - front.point).dot(front.forward));
+        out.output(5, (front.point - X.p).cross(s).dot(front.axis));
         // the axles, projected onto the road, meet at P_r + y_r/κ₀
-        out.output(6, rear.frame.y.dot(front.frame.x) / (front.point - rear.point).dot(front.frame.x));
+        out.output(6, rear.across.dot(front.forward) / (front.point - rear.point).dot(front.forward));
     }
     fn energy<S: SystemScalar>(&self, _at: &Evaluated<'_, S>) -> Energy<S> {
         Energy::default()
@@ -154,7 +211,7 @@ pub struct SingleTrackDescription {
 }
 
 impl WheelDescription {
-    fn wheel(&self, key: &str, site: &mut Site<'_>) -> Option<Wheel> {
+    pub(super) fn wheel(&self, key: &str, site: &mut Site<'_>) -> Option<Wheel> {
         let body = site.joint_with(&format!("{key}.joint"), &self.joint, "rad")?;
         match Profile::torus(self.radius.si(), self.crown_radius.map_or(0.0, Quantity::si)) {
             Ok(profile) => {
@@ -177,22 +234,44 @@ impl ElementDescription for SingleTrackDescription {
     const TREE: &'static str = crate::EXAMPLE_TREE;
     type Law = SingleTrack;
     fn assemble(self, site: &mut Site<'_>) -> Option<SingleTrack> {
-        let base = site.link("base", &self.base);
-        let steer = site.joint_with("steer", &self.steer, "rad");
+        let course = Course::find(&self.base, &self.steer, site);
         let (front, rear) = (self.front_wheel.wheel("front_wheel", site), self.rear_wheel.wheel("rear_wheel", site));
-        let (base, steer, front, rear) = (base?.0, steer?, front?, rear?);
+        let (course, front, rear) = (course?, front?, rear?);
+        Some(course.observer(vec![front], vec![rear], self.input))
+    }
+}
+
+/// The base and the steering of a vehicle.
+pub(super) struct Course {
+    base: BodyIndex,
+    steer: BodyIndex,
+    steer_axis: Vec3<f64>,
+}
+
+impl Course {
+    /// Link on the vehicle base and steering joint of these names; `None` with a finding where they are something else.
+    pub(super) fn find(base_name: &str, steer_name: &str, site: &mut Site<'_>) -> Option<Self> {
+        let base = site.link("base", base_name);
+        let steer = site.joint_with("steer", steer_name, "rad");
+        let (base, steer) = (base?.0, steer?);
         let names: Vec<_> = site.model().body(base).joint.velocities().iter().map(|v| v.name).collect();
         if names.first() != Some(&"forward_speed") || names.get(2) != Some(&"yaw_rate") {
-            let message = format!("link `{}` does not move on a vehicle base, so it has no forward speed and no yaw rate", self.base);
+            let message = format!("link `{base_name}` does not move on a vehicle base, so it has no forward speed and no yaw rate");
             site.refuse("base", "wrong_link", message);
             return None;
         }
         let steer_axis = turning_axis(site.model(), steer);
         if (site.design_pose(steer).R * steer_axis).z <= 0.0 {
-            site.refuse("steer", "wrong_joint", format!("the axis of joint `{}` does not point upward", self.steer));
+            site.refuse("steer", "wrong_joint", format!("the axis of joint `{steer_name}` does not point upward"));
             return None;
         }
-        Some(SingleTrack { base, steer, steer_axis, front, rear, input: self.input.unwrap_or_else(|| "steer".to_owned()) })
+        Some(Self { base, steer, steer_axis })
+    }
+
+    /// The observer with these wheels, each list at least one.
+    pub(super) fn observer(self, front: Vec<Wheel>, rear: Vec<Wheel>, input: Option<String>) -> SingleTrack {
+        let Self { base, steer, steer_axis } = self;
+        SingleTrack { base, steer, steer_axis, front, rear, input: input.unwrap_or_else(|| "steer".to_owned()) }
     }
 }
 
@@ -210,8 +289,8 @@ mod tests {
             base: bodies.chassis,
             steer: bodies.front_upper,
             steer_axis: Vec3::new(0.0, 0.0, 1.0),
-            front: wheel(bodies.front_rim, 0.3, 0.06),
-            rear: wheel(bodies.rear_rim, 0.32, 0.095),
+            front: vec![wheel(bodies.front_rim, 0.3, 0.06)],
+            rear: vec![wheel(bodies.rear_rim, 0.32, 0.095)],
             input: "steer".into(),
         };
         Bench::new(vec![Force::new("handling", law)])

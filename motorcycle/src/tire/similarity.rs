@@ -33,6 +33,8 @@ pub(super) fn friction<S: SystemScalar>(law: &impl TireLaw, slip: &Slip<S>, mu: 
         longitudinal: forces.longitudinal * mu,
         lateral: forces.lateral * mu,
         overturning_moment: moments.overturning_moment * mu,
+        // the work of the rubber between carcass and rim, whatever the road
+        rolling_moment: moments.rolling_moment,
         aligning_moment: moments.aligning_moment * mu,
         utilization: forces.utilization,
     }

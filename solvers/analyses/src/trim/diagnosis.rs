@@ -8,8 +8,26 @@ use crate::{Variable, Variables};
 use nalgebra::DMatrix;
 use problem::{Ending, Limit};
 
-/// Indices of a largest set of independent rows of a scaled Jacobian, and the rank.
-pub(super) fn rank_rows(jacobian: &DMatrix<f64>) -> (Vec<usize>, usize) {
+/// Indices of a largest set of independent rows, each the largest of those that are left.
+pub(super) fn largest_rows(jacobian: &DMatrix<f64>) -> Vec<usize> {
+    let mut rest: Vec<nalgebra::DVector<f64>> = jacobian.row_iter().map(|row| row.transpose()).collect();
+    let mut chosen = Vec::new();
+    while let Some(best) = (0..rest.len()).filter(|i| !chosen.contains(i)).max_by(|&a, &b| rest[a].norm().total_cmp(&rest[b].norm())) {
+        let Some(direction) = rest[best].try_normalize(1e-6) else { break };
+        chosen.push(best);
+        for row in &mut rest {
+            let along = row.dot(&direction);
+            *row -= &direction * along;
+        }
+    }
+    chosen
+}
+
+/// Part of a row that must be independent of those chosen for it to be taken before others.
+const CLEARLY_INDEPENDENT: f64 = 1e-6;
+
+/// Indices of a largest set of independent rows of a scaled Jacobian, and the rank; those of the rows in `first` that are independent are among them.
+pub(super) fn rank_rows(jacobian: &DMatrix<f64>, first: &[bool]) -> (Vec<usize>, usize) {
     // Gram-Schmidt with row pivoting: rows of the same origin are kept in order where they are equally good
     let (m, n) = jacobian.shape();
     let mut rest: Vec<nalgebra::DVector<f64>> = (0..m).map(|i| jacobian.row(i).transpose()).collect();
@@ -22,7 +40,10 @@ pub(super) fn rank_rows(jacobian: &DMatrix<f64>) -> (Vec<usize>, usize) {
     }
     let mut chosen = Vec::new();
     while chosen.len() < n {
-        let best = (0..m).filter(|i| !chosen.contains(i)).max_by(|&a, &b| rest[a].norm().total_cmp(&rest[b].norm()));
+        let largest = |of: &dyn Fn(usize) -> bool| {
+            (0..m).filter(|&i| of(i) && !chosen.contains(&i)).max_by(|&a, &b| rest[a].norm().total_cmp(&rest[b].norm()))
+        };
+        let best = largest(&|i| first[i]).filter(|&b| rest[b].norm() > CLEARLY_INDEPENDENT).or_else(|| largest(&|_| true));
         let Some(best) = best.filter(|&b| rest[b].norm() > 1e-9) else { break };
         chosen.push(best);
         let direction = rest[best].normalize();

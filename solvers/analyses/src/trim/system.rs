@@ -3,7 +3,7 @@
 //! `x → (y, ẏ, u)` through roles and ties; rows: equations of motion, element rows, conditions. One sweep of the plant with
 //! the directions `∂(y, ẏ, u)/∂x` gives the Jacobian. Rows that no unknown touches are left out and checked at the end.
 
-use super::diagnosis::{moving_together, rank_rows};
+use super::diagnosis::{largest_rows, moving_together, rank_rows};
 use super::roles::{Condition, Role, Trim, TrimError};
 use crate::{Expression, Variable, Variables};
 use problem::{AlgebraicProblem, At, EquationKind, EvalError, Matrix, Plant, Seeds};
@@ -190,10 +190,23 @@ impl<'p> TrimProblem<'p> {
             };
             return Err(TrimError::NotFinite { equation });
         };
+        // four rows hold the norm of a quaternion: the one that does it best at the first guess speaks for them
+        let guess = self.guess.clone();
+        if self.derivatives(&guess).is_ok() {
+            let kinematic =
+                |i: &usize| matches!(candidates[*i], Row::Equation(e) if self.plant.equations()[e].kind == EquationKind::Kinematic);
+            let rows: Vec<usize> = (0..candidates.len()).filter(kinematic).collect();
+            self.rows = rows.iter().map(|&i| candidates[i]).collect();
+            let kept = largest_rows(&self.scaled_jacobian());
+            rows.iter().enumerate().filter(|(k, _)| !kept.contains(k)).for_each(|(_, &i)| touched[i] = false);
+        }
         let live: Vec<usize> = (0..candidates.len()).filter(|&i| touched[i]).collect();
         self.implied = (0..candidates.len()).filter(|&i| !touched[i]).map(|i| candidates[i]).collect();
         let jacobian = scaled.select_rows(&live);
-        let (independent, rank) = rank_rows(&jacobian);
+        // loops close exactly: where something follows from the rest, it is a balance of forces
+        let closes = |&i: &usize| matches!(candidates[i], Row::Equation(e) if self.plant.equations()[e].kind == EquationKind::Constraint);
+        let first: Vec<bool> = live.iter().map(closes).collect();
+        let (independent, rank) = rank_rows(&jacobian, &first);
         if rank < self.unknowns.len() {
             let together = moving_together(&jacobian, &self.unknowns, &self.unknown_scale, &self.variables);
             return Err(match live.len() < self.unknowns.len() {
