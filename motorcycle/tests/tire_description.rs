@@ -182,8 +182,6 @@ fn mistakes_are_named_where_they_are() {
         (("carcass", empty), "missing_entry", "carcass.vertical.relaxation", "needs coefficients"),
         (("law", law), "invalid_tire_data", "law", "`cornering_stiffness` must be positive, but is -14"),
         (("law", "{ file: missing.yaml }"), "missing_file", "law.file", "`missing.yaml` was not found"),
-        (("law", "{ file: broken.yaml }"), "invalid_tire_file", "law.file", "`broken.yaml`: invalid type: string \"much\""),
-        (("law", "{ file: chained.yaml }"), "invalid_tire_file", "law.file", "holds the parameters themselves"),
         (("rolling_resistance", "pressure"), "missing_entry", "rolling_resistance", "needs the entry `pressure`"),
     ] {
         let (found_code, path, message) = refused(&tire(&[change]));
@@ -202,4 +200,17 @@ fn a_wheel_that_turns_the_other_way_is_refused() {
         assert_eq!((code, path.as_str()), ("wrong_axis", "elements.tire.tire.wheel"));
         assert!(message.contains(words) && message.contains("must point left"), "{message}");
     }
+}
+
+#[test]
+fn mistakes_in_a_law_file_are_told_all_at_once_at_their_lines() {
+    let (assembled, findings) = build(&tire(&[("law", "{ file: broken.yaml }")]));
+    assert!(assembled.is_none());
+    let told: Vec<_> = findings.iter().map(|f| (f.file.as_str(), f.line, f.code, f.path.as_str())).collect();
+    assert!(told.contains(&("broken.yaml", Some(1), "wrong_type", "magic_formula_motorcycle.crown_radius")), "{told:?}");
+    // and the three groups of coefficients
+    assert_eq!(told.iter().filter(|t| t.2 == "missing_key").count(), 3, "{told:?}");
+    let (code, path, message) = refused(&tire(&[("law", "{ file: chained.yaml }")]));
+    assert_eq!((code, path.as_str()), ("invalid_tire_file", "file"));
+    assert!(message.contains("holds the parameters themselves"), "{message}");
 }

@@ -1,6 +1,6 @@
 //! The Magic Formula family of tire property files: MF 5.2, PAC_MC, MF 6.1 and 6.2, one law with the differences in place.
 //!
-//! The formulas stand in [`planar`] (forces) and [`moments`]; coefficients and dialects are tables. Turn slip is left out in all of them, as if the
+//! The formulas stand in `planar` (forces) and `moments`; coefficients and dialects are tables. Turn slip is left out in all of them, as if the
 //! path were straight at every instant (all ζ = 1); so are belt dynamics.
 //!
 //! # Signs
@@ -15,7 +15,7 @@
 //! ```
 //!
 //! All moments are about the point P_w where the plane of the wheel meets the road; the element carries them to the point of contact
-//! ([`super::law::MomentPoint`]). Below VXLOW the shifts of an asymmetric tire fade as `(1 − cos(π V/VXLOW))/2`.
+//! ([`MomentPoint`]). Below VXLOW the shifts of an asymmetric tire fade as `(1 − cos(π V/VXLOW))/2`.
 //!
 //! Pressure: p = (pressure − NOMPRES)/NOMPRES, 6.x only.
 
