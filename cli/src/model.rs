@@ -1,11 +1,13 @@
 //! From the MODEL argument to an assembled system.
 
 use crate::arguments::{ModelArguments, argument};
-use crate::library::Source;
+use crate::library::{Source, bundled_setups};
 use crate::{Context, Failure};
 use mbody::assembly::{Assembled, BaseDescription, Blueprint, Override};
 use mbody::description::Library;
+use mbody::description::document::Document;
 use mbody::description::finding::{Finding, Findings};
+use serde_json::Value;
 use std::sync::Arc;
 
 /// An assembled model and what was said about it.
@@ -23,15 +25,38 @@ pub struct Loaded {
     pub findings: Findings,
 }
 
-/// Splits `PATH=VALUE`.
+/// Splits `PATH=VALUE`; the name of a setup stands for all values in it.
 pub fn overrides(settings: &[String]) -> Result<Vec<Override>, Failure> {
-    let split = |s: &String| match s.split_once('=') {
-        Some((path, value)) if !path.is_empty() && !value.is_empty() => Ok((path.trim().to_owned(), value.trim().to_owned())),
-        _ => Err(argument("set", s, "bad_override", "this is not of the form PATH=VALUE")
-            .with_hint("for example `--set front_tire.radius=0.3m`")
-            .into()),
-    };
-    settings.iter().map(split).collect()
+    let mut all = Vec::new();
+    for setting in settings {
+        match setting.split_once('=') {
+            Some((path, value)) if !path.is_empty() && !value.is_empty() => all.push((path.trim().to_owned(), value.trim().to_owned())),
+            None if is_setup(setting) => all.extend(setup(setting)?),
+            _ => {
+                let finding = argument("set", setting, "bad_override", "this is neither of the form PATH=VALUE nor a setup");
+                return Err(finding.with_hint("for example `--set front_tire.radius=0.3m`, `--set wet.yaml`").into());
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Whether a setting is the name of a setup file or of a bundled setup.
+fn is_setup(setting: &str) -> bool {
+    setting.ends_with(".yaml") || setting.ends_with(".yml") || bundled_setups().contains(&setting)
+}
+
+/// Values of a setup, for a model other than its own.
+fn setup(name: &str) -> Result<Vec<Override>, Failure> {
+    let source = Source::find(name)?;
+    let document = Document::parse(&source.file, &source.text(&source.file).unwrap_or_default())?;
+    if document.value().get("setup").is_none() {
+        let finding = document.finding("", "wrong_file", format!("`{name}` is not a setup"));
+        return Err(finding.with_hint("a setup begins with `setup: MODEL`; another model is named in place of this one").into());
+    }
+    let shown = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    let values = document.value().get("adjust").and_then(Value::as_object);
+    Ok(values.into_iter().flatten().map(|(key, value)| (key.clone(), shown(value))).collect())
 }
 
 /// What was read: the description, and the system where nothing is wrong.

@@ -12,6 +12,9 @@ struct Arguments {
     /// The schema of maneuvers instead of that of descriptions
     #[arg(long)]
     maneuver: bool,
+    /// The schema of parts, of descriptions that change what they include, and of setups: nothing in it is required
+    #[arg(long, conflicts_with = "maneuver")]
+    part: bool,
 }
 
 fn command(command: Command) -> Command {
@@ -20,7 +23,11 @@ fn command(command: Command) -> Command {
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
-    let schema = if arguments.maneuver { motorcycle::maneuver::schema() } else { mbody::assembly::schema(&context.kinds) };
+    let schema = match (arguments.maneuver, arguments.part) {
+        (true, _) => motorcycle::maneuver::schema(),
+        (_, true) => mbody::assembly::part_schema(&context.kinds),
+        _ => mbody::assembly::editor_schema(&context.kinds),
+    };
     context.console.print(format!("{schema:#}\n").as_bytes())?;
     Ok(Exit::Done)
 }

@@ -2,6 +2,7 @@
 
 use crate::constraint::Constraint;
 use crate::description::Library;
+use crate::description::document::Document;
 use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::quantity::{Quantity, dimension::Length};
 use crate::model::{BodyIndex, Model};
@@ -29,6 +30,7 @@ pub struct Site<'a> {
     pub(super) locked: &'a [String],
     pub(super) constraints: &'a [Constraint],
     pub(super) library: &'a dyn Library,
+    pub(super) document: &'a Document,
     pub(super) findings: &'a mut Findings,
     pub(super) left_out: Option<String>,
 }
@@ -132,9 +134,11 @@ impl<'a> Site<'a> {
         self.design.X_WB[body.get()]
     }
 
-    /// Text that the description refers to: a table, a data file.
+    /// Text that the description refers to: a table, a data file. Its name is relative to the file in which it is named.
     pub fn text(&mut self, key: &str, name: &str) -> Option<String> {
-        let found = self.library.text(name).map(|t| t.into_owned());
+        let entry = self.document.pointer_of(&format!("{}.{key}", self.path)).unwrap_or_default();
+        let full = self.library.resolve(name, self.document.file_of(&entry));
+        let found = self.library.text(&full).map(|t| t.into_owned());
         if found.is_none() {
             self.refuse(key, "missing_file", format!("file `{name}` was not found"));
         }

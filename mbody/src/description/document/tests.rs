@@ -154,7 +154,7 @@ fn overlays_join_replace_and_remove() {
     let mut document = plant();
     let text = "elements:\n  shock: {spring_damper: {stiffness: 70 kN/m, points: null}}\n  new: {bushing: {}}\n";
     match Document::parse("over.yaml", text) {
-        Ok(overlay) => document.merge(overlay),
+        Ok(overlay) => document.merge(overlay, &[]),
         Err(findings) => panic!("{findings}"),
     }
     let expected =

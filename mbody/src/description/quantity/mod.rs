@@ -3,7 +3,7 @@
 mod bound;
 pub mod dimension;
 mod error;
-mod parse;
+pub(in crate::description) mod parse;
 mod unit;
 
 pub use bound::{Any, AtLeastZero, Bounds, Fraction, Positive, Range};

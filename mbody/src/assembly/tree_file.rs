@@ -1,0 +1,133 @@
+//! The tree of a description: one URDF file or several parts, with what the description and overrides change in it.
+
+use super::assembled::Override;
+use crate::description::Library;
+use crate::description::document::Document;
+use crate::description::finding::{Finding, Findings};
+use crate::description::quantity::{judge, parse_quantity};
+use crate::description::urdf::{self, Robot};
+use serde_json::Value;
+
+/// Reads the files that the description names; each is relative to the text in which its name stands.
+pub(super) fn read(document: &Document, library: &dyn Library, findings: &mut Findings) -> Option<Robot> {
+    let mut names: Vec<(String, &str)> = Vec::new();
+    match document.value().get("urdf")? {
+        Value::String(name) => names.push(("urdf".to_owned(), name)),
+        Value::Object(parts) => names.extend(parts.iter().filter_map(|(part, name)| Some((format!("urdf.{part}"), name.as_str()?)))),
+        _ => return None,
+    }
+    let mut texts = Vec::new();
+    for (path, name) in &names {
+        let within = document.pointer_of(path).map_or(document.file(), |pointer| document.file_of(&pointer));
+        let full = library.resolve(name, within);
+        match library.text(&full) {
+            Some(text) => texts.push((full, text)),
+            None => findings.push(document.finding(path, "missing_file", format!("file `{name}` was not found"))),
+        }
+    }
+    if texts.len() < names.len() || texts.is_empty() {
+        return None;
+    }
+    let parts: Vec<(&str, &str)> = texts.iter().map(|(file, text)| (file.as_str(), text.as_ref())).collect();
+    let (robot, of_urdf) = urdf::read_parts(&parts);
+    let held = |f: &Finding| f.code == "massless_tip" && robot.as_ref().is_some_and(|r| is_held(document.value(), r, &f.path));
+    findings.extend(of_urdf.iter().filter(|f| !held(f)).cloned());
+    robot
+}
+
+/// Whether a constraint holds the massless link of a path `link.<name>`, or one behind it: its motion follows from the others then.
+fn is_held(description: &Value, robot: &Robot, path: &str) -> bool {
+    let Some(link) = path.strip_prefix("link.") else { return false };
+    let mut links = Vec::new();
+    constrained_links(description.get("constraints").unwrap_or(&Value::Null), &mut links);
+    links.iter().any(|&held| {
+        let mut at = held;
+        loop {
+            if at == link {
+                return true;
+            }
+            match robot.joints.iter().find(|j| j.child == at) {
+                Some(joint) => at = &joint.parent,
+                None => return false,
+            }
+        }
+    })
+}
+
+/// All values under a key `link`.
+fn constrained_links<'a>(value: &'a Value, links: &mut Vec<&'a str>) {
+    if let Some(entries) = value.as_object() {
+        links.extend(entries.get("link").and_then(Value::as_str));
+        entries.values().for_each(|v| constrained_links(v, links));
+    }
+}
+
+/// The tree with what stands under `links:` and `joints:` of a description, then with overrides. What is wrong only now is the fault of
+/// those, not of the URDF.
+pub(super) fn changed_tree(robot: &Robot, document: Option<&Document>, overrides: &[Override], findings: &mut Findings) -> Robot {
+    let mut changed = robot.clone();
+    let mut known: Vec<Finding> = robot.check().into_iter().collect();
+    let mut places: Vec<(String, String)> = Vec::new();
+    for (section, owner) in [("links", "link"), ("joints", "joint")] {
+        let Some(document) = document else { break };
+        for (name, options) in document.value().get(section).and_then(Value::as_object).into_iter().flatten() {
+            for (entry, value) in numbers(options) {
+                let (path, at) = (format!("{owner}.{name}.{entry}"), format!("{section}.{name}.{entry}"));
+                match changed.dimension_of(&path).map(|dimension| judge(value, dimension)) {
+                    Ok(Some(Ok(si))) => findings.extend(changed.set(&path, si).err().into_iter().flatten().map(|f| f.at_path(&at))),
+                    // numbers are judged by the schema
+                    Ok(_) => {}
+                    Err(errors) => {
+                        // the joint of a wrong name is told with its options
+                        let wrong = errors.into_iter().filter(|_| section == "links");
+                        findings.extend(wrong.map(|f| document.locate(Finding { path: at.clone(), ..f })));
+                    }
+                }
+                places.push((path, at));
+            }
+        }
+        for finding in fresh(&changed, &mut known) {
+            let owner = finding.path.split('.').take(2).collect::<Vec<_>>().join(".");
+            let place = places.iter().find(|(path, _)| path.starts_with(&format!("{owner}."))).map_or(section, |(_, at)| at.as_str());
+            findings.push(document.locate(Finding { path: place.to_owned(), ..finding }));
+        }
+    }
+    for (path, value) in overrides {
+        set(&mut changed, path, value, findings);
+    }
+    if !overrides.is_empty() {
+        let changes = overrides.iter().map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>().join(" ");
+        findings.extend(fresh(&changed, &mut known).into_iter().map(|f| f.in_file(&changes)));
+    }
+    changed
+}
+
+/// What is wrong with the tree and was not known, without a place.
+fn fresh(robot: &Robot, known: &mut Vec<Finding>) -> Vec<Finding> {
+    let new: Vec<Finding> = robot.check().into_iter().filter(|f| known.iter().all(|k| k.message != f.message)).collect();
+    known.extend(new.iter().cloned());
+    new.into_iter().map(|f| Finding { line: None, column: None, excerpt: None, ..f }).collect()
+}
+
+/// Numbers of the options of a link or joint that change the URDF, by their path below it.
+fn numbers(options: &Value) -> Vec<(String, &Value)> {
+    let of_urdf = |key: &str| !matches!(key, "locked" | "kind" | "pitch");
+    let mut found = Vec::new();
+    for (key, value) in options.as_object().into_iter().flatten().filter(|(key, _)| of_urdf(key)) {
+        match value {
+            Value::Object(inner) => found.extend(inner.iter().map(|(k, v)| (format!("{key}.{k}"), v))),
+            _ => found.push((key.clone(), value)),
+        }
+    }
+    found
+}
+
+fn set(robot: &mut Robot, path: &str, text: &str, findings: &mut Findings) {
+    let done = robot.dimension_of(path).and_then(|dimension| match parse_quantity(text, dimension) {
+        Ok(value) => robot.set(path, value),
+        Err(error) => Err(Finding::error(error.code(), error.to_string()).at_path(path).with_hint_from(error.hint()).into()),
+    });
+    if let Err(errors) = done {
+        findings.extend(errors);
+    }
+}
