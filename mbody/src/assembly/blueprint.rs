@@ -47,6 +47,8 @@ pub struct Entry {
     pub value: f64,
     /// What it is; empty for entries of the URDF.
     pub about: String,
+    /// Whether a formula gives its value: it follows the parameters in it, until it is changed itself.
+    pub derived: bool,
     /// JSON pointer into the document; none for an entry of the URDF.
     pointer: Option<String>,
 }
@@ -74,12 +76,13 @@ impl Blueprint {
         let parameters = parameter::evaluate(&mut evaluated, &formulas, &mut findings);
         parameter::check_ranges(&evaluated, &parameters, &mut findings);
         findings.extend(unsaid(schema.check(&evaluated), &findings));
-        let mut entries = entries_of(&evaluated, &schema, &parameters);
+        let derived: Vec<&str> = formulas.iter().map(|(pointer, _)| pointer.as_str()).collect();
+        let mut entries = entries_of(&evaluated, &schema, &parameters, &derived);
         let robot = tree_file::read(&evaluated, library, &mut findings);
         let changed = robot.as_ref().map(|robot| changed_tree(robot, Some(&evaluated), &of_tree, &mut findings));
         match (robot, changed) {
             (Some(robot), Some(changed)) if !findings.has_errors() => {
-                entries.extend(entries_of_tree(&changed));
+                entries.extend(entries_of_tree(&changed, &derived));
                 (Some(Self { text: Text::Description(document, formulas), robot, overrides: of_tree, entries, parameters }), findings)
             }
             _ => (None, findings),
@@ -91,7 +94,7 @@ impl Blueprint {
         let (robot, mut findings) = urdf::read(file, text);
         let Some(robot) = robot else { return (None, findings) };
         let changed = changed_tree(&robot, None, overrides, &mut findings);
-        let (entries, overrides) = (entries_of_tree(&changed), overrides.to_vec());
+        let (entries, overrides) = (entries_of_tree(&changed, &[]), overrides.to_vec());
         (Some(Self { text: Text::Urdf { base, gravity }, robot, overrides, entries, parameters: Vec::new() }), findings)
     }
 
@@ -176,7 +179,7 @@ fn unsaid(found: Findings, before: &Findings) -> Vec<Finding> {
 const POINT: usize = 3;
 
 /// Parameters, numbers of elements and constraints, and gravity.
-fn entries_of(document: &Document, schema: &Schema, parameters: &[Parameter]) -> Vec<Entry> {
+fn entries_of(document: &Document, schema: &Schema, parameters: &[Parameter], derived: &[&str]) -> Vec<Entry> {
     let varies = |pointer: &str| {
         let screw = pointer.starts_with("/joints/") && pointer.ends_with("/pitch");
         screw || ["/elements/", "/constraints/", "/gravity"].iter().any(|s| pointer.starts_with(s))
@@ -193,21 +196,31 @@ fn entries_of(document: &Document, schema: &Schema, parameters: &[Parameter]) ->
             dimension: number.dimension,
             value,
             about: number.about,
+            derived: derived.contains(&number.pointer.as_str()),
             pointer: Some(number.pointer),
         })
     };
-    let named = parameters.iter().filter(|p| !p.derived).filter_map(|p| {
+    // clicks do not vary continuously
+    let named = parameters.iter().filter(|p| !p.stepped).filter_map(|p| {
         let (value, pointer) = (p.value.si, Some(p.pointer.clone()));
-        Some(Entry { path: p.name.clone(), dimension: p.dimension()?, value, about: p.about.clone(), pointer })
+        Some(Entry { path: p.name.clone(), dimension: p.dimension()?, value, about: p.about.clone(), derived: p.derived, pointer })
     });
     named.chain(numbers.filter_map(entry)).collect()
 }
 
-/// Mass properties of links and places of joints.
-fn entries_of_tree(robot: &Robot) -> Vec<Entry> {
+/// Mass properties of links and places of joints; `derived` are pointers to formulas of the description.
+fn entries_of_tree(robot: &Robot, derived: &[&str]) -> Vec<Entry> {
     let varies = |path: &str| [".mass", ".com.", ".inertia.", ".origin.", ".rpy."].iter().any(|part| path.contains(part));
-    let entries = robot.settable().into_iter().filter(|s| varies(&s.path));
-    entries.map(|s| Entry { path: s.path, dimension: s.dimension, value: s.value, about: String::new(), pointer: None }).collect()
+    let formulas: Vec<String> = derived.iter().filter_map(|p| tree_file::tree_path(p)).collect();
+    let entry = |s: urdf::Settable| Entry {
+        derived: formulas.contains(&s.path),
+        path: s.path,
+        dimension: s.dimension,
+        value: s.value,
+        about: String::new(),
+        pointer: None,
+    };
+    robot.settable().into_iter().filter(|s| varies(&s.path)).map(entry).collect()
 }
 
 /// Whether an override goes to the URDF: `link.…`, or `joint.<name>.…` other than the joint options of the description.

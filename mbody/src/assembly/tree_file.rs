@@ -109,6 +109,15 @@ fn fresh(robot: &Robot, known: &mut Vec<Finding>) -> Vec<Finding> {
     new.into_iter().map(|f| Finding { line: None, column: None, excerpt: None, ..f }).collect()
 }
 
+/// Path of the entry of the tree that an entry under `links` or `joints` changes: `link.arm.com.x` of `/links/arm/com/x`.
+pub(super) fn tree_path(pointer: &str) -> Option<String> {
+    let (owner, rest) = match pointer.strip_prefix("/links/") {
+        Some(rest) => ("link", rest),
+        None => ("joint", pointer.strip_prefix("/joints/")?),
+    };
+    Some(format!("{owner}.{}", rest.replace('/', ".").replace("~1", "/").replace("~0", "~")))
+}
+
 /// Numbers of the options of a link or joint that change the URDF, by their path below it.
 fn numbers(options: &Value) -> Vec<(String, &Value)> {
     let of_urdf = |key: &str| !matches!(key, "locked" | "kind" | "pitch");

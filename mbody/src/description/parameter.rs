@@ -74,6 +74,8 @@ pub struct Parameter {
     pub derived: bool,
     /// Smallest and largest value, SI, of an adjustable.
     pub range: Option<(f64, f64)>,
+    /// Whether its values lie on steps.
+    pub stepped: bool,
 }
 
 impl Parameter {
@@ -264,6 +266,7 @@ struct Written {
     pointer: String,
     value: Value,
     range: Option<(f64, f64)>,
+    stepped: bool,
 }
 
 /// Values of parameters in the order in which they need each other.
@@ -303,6 +306,7 @@ impl<'a> Solver<'a> {
                     pointer: format!("/{section}/{}/value", escaped(name)),
                     value: value.clone(),
                     range,
+                    stepped: entry.get("step").is_some(),
                 });
             }
         }
@@ -372,6 +376,7 @@ impl<'a> Solver<'a> {
                 pointer: written.pointer.clone(),
                 derived: written.value.as_str().is_some_and(|t| formula(t).is_some()),
                 range: written.range,
+                stepped: written.stepped,
             })
         };
         both.filter_map(parameter).collect()

@@ -33,6 +33,7 @@ pub struct TireDescription {
     /// Name of the wheel joint; its axis points left, and the origin of its child is the center of the wheel.
     wheel: String,
     /// Free radius on the middle plane.
+    #[schemars(extend("plausible" = [0.05, 1.0]))]
     radius: PositiveQuantity<Length>,
     /// Shape of the cross-section.
     crown: CrownDescription,
@@ -46,6 +47,7 @@ pub struct TireDescription {
     /// Rolling resistance; none where left out.
     rolling_resistance: Option<RollingResistanceDescription>,
     /// Inflation pressure, for the rolling resistance that depends on it.
+    #[schemars(extend("plausible" = [3e4, 1e6]))]
     pressure: Option<PositiveQuantity<Pressure>>,
     /// Share of the compression by which the effective rolling radius is smaller than the free one; 1/3 where left out.
     effective_radius_fraction: Option<Quantity<Number, Fraction>>,
@@ -75,6 +77,7 @@ pub enum CrownDescription {
 #[serde(deny_unknown_fields)]
 pub struct TorusDescription {
     /// Radius of the arc.
+    #[schemars(extend("plausible" = [0.001, 0.3]))]
     radius: PositiveQuantity<Length>,
 }
 
