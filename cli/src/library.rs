@@ -176,8 +176,9 @@ impl Library for Source {
             Some(_) => vec![name.to_owned()],
             None => {
                 let model = FOLDERS.iter().map(|folder| format!("{SCHEME}{folder}/{name}/{name}.yaml"));
+                let setup = format!("{SCHEME}setups/{name}.yaml");
                 let shared = SHARED.iter().flat_map(|f| ["", ".yaml"].map(|end| format!("{SCHEME}{f}/{name}{end}")));
-                [near.clone(), format!("{near}.yaml")].into_iter().chain(model).chain(shared).collect()
+                [near.clone(), format!("{near}.yaml")].into_iter().chain(model).chain([setup]).chain(shared).collect()
             }
         };
         candidates.into_iter().find(|c| self.text(c).is_some()).unwrap_or(near)

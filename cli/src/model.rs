@@ -3,11 +3,13 @@
 use crate::arguments::{ModelArguments, argument};
 use crate::library::{Source, bundled_setups};
 use crate::{Context, Failure};
-use mbody::assembly::{Assembled, BaseDescription, Blueprint, Override};
+use mbody::assembly::{Assembled, BaseDescription, Blueprint, Kinds, Override};
 use mbody::description::Library;
 use mbody::description::document::Document;
 use mbody::description::finding::{Finding, Findings};
 use serde_json::Value;
+use std::borrow::Cow;
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// An assembled model and what was said about it.
@@ -104,4 +106,45 @@ pub fn load_on(arguments: &ModelArguments, context: &Context, base: BaseDescript
         }
         None => Err(Failure::Findings(findings)),
     }
+}
+
+/// A library that remembers which texts were read.
+struct Recorder<'a> {
+    source: &'a Source,
+    read: RefCell<Vec<String>>,
+}
+
+impl Library for Recorder<'_> {
+    fn text(&self, name: &str) -> Option<Cow<'_, str>> {
+        let text = self.source.text(name)?;
+        let mut read = self.read.borrow_mut();
+        if !read.iter().any(|known| known == name) {
+            read.push(name.to_owned());
+        }
+        Some(text)
+    }
+
+    fn resolve(&self, name: &str, within: &str) -> String {
+        self.source.resolve(name, within)
+    }
+}
+
+/// Names of all texts that a model reads, the description first; [`Library::text`] of the source knows them.
+///
+/// # Errors
+/// The model cannot be read.
+pub fn texts(source: &Source, kinds: &Kinds) -> Result<Vec<String>, Findings> {
+    let recorder = Recorder { source, read: RefCell::default() };
+    let (blueprint, mut findings) = match source.is_urdf() {
+        true => {
+            let text = recorder.text(&source.file).unwrap_or_default().into_owned();
+            Blueprint::read_urdf(&source.file, &text, (BaseDescription::Fixed, 9.81), &[])
+        }
+        false => Blueprint::read(&source.file, &recorder, kinds, &[]),
+    };
+    if let Some(blueprint) = blueprint {
+        // tires and tables are read while elements are made
+        blueprint.assemble(&recorder, kinds, &mut findings);
+    }
+    if findings.has_errors() { Err(findings) } else { Ok(recorder.read.into_inner()) }
 }

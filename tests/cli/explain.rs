@@ -18,7 +18,7 @@ fn kinds_entries_signals_and_codes_are_explained() {
     for (word, part) in [
         ("chassis.roll", "lean, positive to the right"),
         ("steer.torque", "[N m] (input of ref11)"),
-        ("rear_suspension.spring.stiffness", "[N/m] (entry of ref11"),
+        ("rear_suspension.spring.stiffness", "[N m/rad] (entry of ref11"),
         ("link.chassis.mass", "[kg] (entry of ref11"),
         ("telescopic_fork", "example: telescopic_fork: "),
         ("cut_joint", "example: cut_joint: "),

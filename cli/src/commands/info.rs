@@ -4,6 +4,7 @@ use super::{Kind, read};
 use crate::arguments::ModelArguments;
 use crate::explain::{Dictionary, Told};
 use crate::library::{Source, bundled_models, bundled_setups};
+use crate::output::number::number;
 use crate::{Context, Exit, Failure, model};
 use clap::{ArgMatches, Args, Command};
 use mbody::assembly::{Assembled, BaseDescription, Blueprint};
@@ -81,9 +82,9 @@ fn named(blueprint: &Blueprint) -> String {
             let _ = writeln!(text, "\n{title}");
         }
         for p in of_sort {
-            let unit = p.dimension().map_or("", |d| d.unit).replace('1', "");
-            let range = p.range.map(|(low, high)| format!("{low} to {high}")).unwrap_or_default();
-            let _ = writeln!(text, "  {:<22} {:>12} {unit:<8} {range:<18} {}", p.name, format!("{}", p.value.si), p.about);
+            let unit = p.dimension().map(|d| d.unit).filter(|u| *u != "1").unwrap_or_default();
+            let range = p.range.map(|(low, high)| format!("{} to {}", number(low), number(high))).unwrap_or_default();
+            let _ = writeln!(text, "  {:<22} {:>12} {unit:<8} {range:<18} {}", p.name, number(p.value.si), p.about);
         }
     }
     text

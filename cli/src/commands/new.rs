@@ -2,13 +2,10 @@
 
 use super::{Kind, read};
 use crate::library::{Source, bundled_file};
-use crate::{Context, Exit, Failure};
+use crate::{Context, Exit, Failure, model};
 use clap::{ArgMatches, Args, Command};
-use mbody::assembly::{BaseDescription, Blueprint};
 use mbody::description::Library;
-use mbody::description::finding::{Finding, Findings};
-use std::borrow::Cow;
-use std::cell::RefCell;
+use mbody::description::finding::Finding;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,44 +25,6 @@ fn command(command: Command) -> Command {
     Arguments::augment_args(command).about("Copy a bundled description with everything it reads into a folder to edit")
 }
 
-/// A library that remembers which texts were read.
-struct Recorder<'a> {
-    source: &'a Source,
-    read: RefCell<Vec<String>>,
-}
-
-impl Library for Recorder<'_> {
-    fn text(&self, name: &str) -> Option<Cow<'_, str>> {
-        let text = self.source.text(name)?;
-        let mut read = self.read.borrow_mut();
-        if !read.iter().any(|known| known == name) {
-            read.push(name.to_owned());
-        }
-        Some(text)
-    }
-
-    fn resolve(&self, name: &str, within: &str) -> String {
-        self.source.resolve(name, within)
-    }
-}
-
-/// Names of all texts of a model, the description first.
-fn texts(source: &Source, context: &Context) -> Result<Vec<String>, Findings> {
-    let recorder = Recorder { source, read: RefCell::default() };
-    let (blueprint, mut findings) = match source.is_urdf() {
-        true => {
-            let text = recorder.text(&source.file).unwrap_or_default().into_owned();
-            Blueprint::read_urdf(&source.file, &text, (BaseDescription::Fixed, 9.81), &[])
-        }
-        false => Blueprint::read(&source.file, &recorder, &context.kinds, &[]),
-    };
-    if let Some(blueprint) = blueprint {
-        // tires and tables are read while elements are made
-        blueprint.assemble(&recorder, &context.kinds, &mut findings);
-    }
-    if findings.has_errors() { Err(findings) } else { Ok(recorder.read.into_inner()) }
-}
-
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
     let folder = &arguments.name;
@@ -83,7 +42,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(refuse("unknown_model", format!("`{}` is no bundled model", arguments.from), hint));
     }
     let mut files: Vec<(String, String)> = Vec::new();
-    for (k, text) in texts(&source, context)?.iter().enumerate() {
+    for (k, text) in model::texts(&source, &context.kinds)?.iter().enumerate() {
         let last = text.rsplit(['/', ':']).next().unwrap_or(text);
         let ending = last.rsplit_once('.').map_or("yaml", |(_, ending)| ending);
         let file = if k == 0 { format!("{name}.{ending}") } else { last.to_owned() };

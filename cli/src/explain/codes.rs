@@ -37,6 +37,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("impossible_tree", "Links and joints make no tree that can move."),
     ("invalid_crown", "The crown of a tire does not fit its radius."),
     ("invalid_entry", "An entry does not fit what it is to be."),
+    ("invalid_profile", "The cross-section of a wheel is none: its radius across is larger than the wheel."),
     ("invalid_table", "A table of an element cannot be read as a curve: its columns differ in length or do not increase."),
     ("invalid_tire_data", "A tire has numbers that no tire has."),
     ("invalid_tire_file", "The file of a tire law cannot be read as one."),

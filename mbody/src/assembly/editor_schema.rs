@@ -57,6 +57,13 @@ fn include() -> Value {
 fn told(schema: &mut Value) {
     if let Value::Object(entries) = schema {
         formulas(entries);
+        // what is said of a kind is said where its tag is typed
+        let about = entries.get("description").cloned().filter(|_| is_tagged(entries));
+        if let (Some(about), Some(Value::Object(properties))) = (about, entries.get_mut("properties")) {
+            for tag in properties.values_mut().filter_map(Value::as_object_mut) {
+                tag.entry("description").or_insert(about.clone());
+            }
+        }
         if let Some(unit) = entries.get(KEYWORD).and_then(Value::as_str).map(str::to_owned) {
             let about = entries.get("description").and_then(Value::as_str).unwrap_or_default();
             let unit = if unit == "1" { "a plain number".to_owned() } else { format!("in {unit} where no unit is written") };
@@ -84,17 +91,22 @@ fn formulas(schema: &mut Map<String, Value>) {
     }
 }
 
+/// Whether a schema is that of a kind: its only entry is its tag.
+fn is_tagged(schema: &Map<String, Value>) -> bool {
+    let count = |key: &str| schema.get(key).map_or(0, |v| v.as_array().map_or_else(|| v.as_object().map_or(0, Map::len), Vec::len));
+    count("required") == 1 && count("properties") == 1
+}
+
 /// Nothing is required; entries of mappings may be `null`.
 fn loosen(schema: &mut Value) {
     match schema {
         Value::Object(entries) => {
             // the tag of a kind stays: it tells the kinds apart
-            let tag = entries.get("required").and_then(Value::as_array).is_some_and(|r| r.len() == 1)
-                && entries.get("properties").and_then(Value::as_object).is_some_and(|p| p.len() == 1);
-            if !tag {
+            let tagged = is_tagged(entries);
+            if !tagged {
                 entries.shift_remove("required");
             }
-            for key in ["properties", "additionalProperties"] {
+            for key in ["properties", "additionalProperties"].into_iter().filter(|_| !tagged) {
                 let of = match (key, entries.get_mut(key)) {
                     ("properties", Some(Value::Object(properties))) => properties.values_mut().collect(),
                     (_, Some(one)) if one.is_object() => vec![one],

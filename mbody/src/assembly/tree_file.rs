@@ -3,7 +3,7 @@
 use super::assembled::Override;
 use crate::description::Library;
 use crate::description::document::Document;
-use crate::description::finding::{Finding, Findings};
+use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::quantity::{judge, parse_quantity};
 use crate::description::urdf::{self, Robot};
 use serde_json::Value;
@@ -71,24 +71,27 @@ pub(super) fn changed_tree(robot: &Robot, document: Option<&Document>, overrides
     for (section, owner) in [("links", "link"), ("joints", "joint")] {
         let Some(document) = document else { break };
         for (name, options) in document.value().get(section).and_then(Value::as_object).into_iter().flatten() {
-            for (entry, value) in numbers(options) {
+            // a joint that does not exist is told with its other options
+            let there = if section == "links" { robot.link(name).is_some() } else { robot.joint(name).is_some() };
+            if !there && section == "links" {
+                let hint = suggestion(name, robot.links.iter().map(|l| l.name.as_str()));
+                let path = format!("links.{name}");
+                findings.push(document.finding(&path, "unknown_link", format!("link `{name}` does not exist")).with_hint_from(hint));
+            }
+            for (entry, value) in numbers(options).into_iter().filter(|_| there) {
                 let (path, at) = (format!("{owner}.{name}.{entry}"), format!("{section}.{name}.{entry}"));
-                match changed.dimension_of(&path).map(|dimension| judge(value, dimension)) {
-                    Ok(Some(Ok(si))) => findings.extend(changed.set(&path, si).err().into_iter().flatten().map(|f| f.at_path(&at))),
-                    // numbers are judged by the schema
-                    Ok(_) => {}
-                    Err(errors) => {
-                        // the joint of a wrong name is told with its options
-                        let wrong = errors.into_iter().filter(|_| section == "links");
-                        findings.extend(wrong.map(|f| document.locate(Finding { path: at.clone(), ..f })));
-                    }
+                // entries and their units are judged by the schema
+                if let Ok(Some(Ok(si))) = changed.dimension_of(&path).map(|dimension| judge(value, dimension)) {
+                    findings.extend(changed.set(&path, si).err().into_iter().flatten().map(|f| f.at_path(&at)));
                 }
                 places.push((path, at));
             }
         }
         for finding in fresh(&changed, &mut known) {
-            let owner = finding.path.split('.').take(2).collect::<Vec<_>>().join(".");
-            let place = places.iter().find(|(path, _)| path.starts_with(&format!("{owner}."))).map_or(section, |(_, at)| at.as_str());
+            // the entry that is most like the path in the URDF
+            let about = finding.path.replace(".inertial", "");
+            let alike = |path: &str| path.bytes().zip(about.bytes()).take_while(|(a, b)| a == b).count();
+            let place = places.iter().max_by_key(|(path, _)| alike(path)).map_or(section, |(_, at)| at.as_str());
             findings.push(document.locate(Finding { path: place.to_owned(), ..finding }));
         }
     }
@@ -106,7 +109,7 @@ pub(super) fn changed_tree(robot: &Robot, document: Option<&Document>, overrides
 fn fresh(robot: &Robot, known: &mut Vec<Finding>) -> Vec<Finding> {
     let new: Vec<Finding> = robot.check().into_iter().filter(|f| known.iter().all(|k| k.message != f.message)).collect();
     known.extend(new.iter().cloned());
-    new.into_iter().map(|f| Finding { line: None, column: None, excerpt: None, ..f }).collect()
+    new.into_iter().map(Finding::without_place).collect()
 }
 
 /// Path of the entry of the tree that an entry under `links` or `joints` changes: `link.arm.com.x` of `/links/arm/com/x`.

@@ -218,20 +218,12 @@ pub fn check_ranges(document: &Document, parameters: &[Parameter], findings: &mu
         let around = parameter.pointer.trim_end_matches("/value");
         let entry = |key: &str| document.value().pointer(&format!("{around}/{key}"));
         let Some([low, high]) = entry("range").and_then(Value::as_array).map(Vec::as_slice) else { continue };
-        let shown = |v: &Value| v.as_str().map_or_else(|| v.to_string(), str::to_owned);
         let (Some(least), Some(most)) = (end(low), end(high)) else {
             let finding = Finding::error("bad_number", "the range is not two numbers with their units");
             findings.push(document.located(finding, &format!("{around}/range"), About::Value));
             continue;
         };
         let value = document.value().pointer(&parameter.pointer).map_or_else(String::new, shown);
-        let unlike = [least, most].iter().any(|e| together(parameter.value.exponents, e.exponents).is_none());
-        if unlike {
-            let (is, range) = (describe(parameter.value.exponents), describe(least.exponents));
-            let message = format!("`{value}` is {is}, but the range from `{}` to `{}` is {range}", shown(low), shown(high));
-            findings.push(document.located(Finding::error("wrong_dimension", message), &parameter.pointer, About::Value));
-            continue;
-        }
         let si = parameter.value.si;
         if least.si > most.si {
             let message = format!("the range from `{}` to `{}` is empty", shown(low), shown(high));
@@ -248,6 +240,11 @@ pub fn check_ranges(document: &Document, parameters: &[Parameter], findings: &mu
             }
         }
     }
+}
+
+/// A value as it was typed.
+fn shown(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
 /// A number with its unit.
@@ -295,7 +292,6 @@ impl<'a> Solver<'a> {
                 let clash = ["elements", "constraints"].iter().find(|s| document.value().get(s).and_then(|v| v.get(name)).is_some());
                 if let Some(other) = clash {
                     refuse("duplicate_name", format!("`{name}` is a parameter and one of the {other}"));
-                    continue;
                 }
                 let Some(value) = entry.get("value") else { continue };
                 let ends = entry.get("range").and_then(Value::as_array).map(Vec::as_slice);
@@ -343,12 +339,27 @@ impl<'a> Solver<'a> {
             // anything else than a number is for the schema to tell
             other => Ok(end(&other)),
         };
-        let value = value.unwrap_or_else(|finding| {
+        let value = value.and_then(|value| self.in_its_unit(k, value)).unwrap_or_else(|finding| {
             findings.push(found(self, finding));
             None
         });
         // part of a ring: that has been told
         self.values[k].get_or_insert(value);
+    }
+
+    /// The value of an adjustable measures what its range does.
+    fn in_its_unit(&self, k: usize, value: Option<Known>) -> Result<Option<Known>, Finding> {
+        let around = self.written[k].pointer.trim_end_matches("/value");
+        let range = self.document.value().pointer(&format!("{around}/range")).and_then(Value::as_array).map(Vec::as_slice);
+        let (Some(value), Some([low, high])) = (value, range) else { return Ok(value) };
+        match [low, high].into_iter().filter_map(end).find(|e| together(e.exponents, value.exponents).is_none()) {
+            None => Ok(Some(value)),
+            Some(other) => {
+                let (text, is, range) = (shown(&self.written[k].value), describe(value.exponents), describe(other.exponents));
+                let message = format!("`{text}` is {is}, but the range from `{}` to `{}` is {range}", shown(low), shown(high));
+                Err(Finding::error("wrong_dimension", message))
+            }
+        }
     }
 
     fn formula(&mut self, k: usize, text: &str, open: &mut Vec<usize>, findings: &mut Findings) -> Result<Option<Known>, Finding> {

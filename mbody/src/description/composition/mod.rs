@@ -22,6 +22,11 @@ const MOST: usize = 256;
 pub(crate) fn read(file: &str, library: &dyn Library, schema: &Schema, findings: &mut Findings) -> Option<Document> {
     let mut composer = Composer { library, schema, findings, open: Vec::new(), count: 0 };
     let document = composer.text(file)?;
+    if document.value().get("part").is_some() {
+        let finding = document.finding("part", "wrong_file", format!("`{file}` is a part of descriptions, not one itself"));
+        findings.push(finding.with_hint(format!("a description includes it: `include: {file}`")));
+        return None;
+    }
     match document.value().get("setup") {
         Some(_) => composer.setup(document),
         None => composer.compose(document),

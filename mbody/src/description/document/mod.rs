@@ -15,7 +15,7 @@ use super::finding::{Finding, Findings, nearest};
 use path::{dotted, step};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A line and a column, counted from one.
 type Place = (usize, usize);
@@ -281,11 +281,11 @@ impl Document {
         let shift = self.sources.len();
         self.sources.extend(overlay.sources);
         self.main = shift + overlay.main;
-        let mut joined = Vec::new();
-        join(&mut self.value, overlay.value, "", &mut Joining { chosen, joined: &mut joined });
+        let mut joining = Joining { chosen: chosen.iter().map(String::as_str).collect(), joined: HashSet::new() };
+        join(&mut self.value, overlay.value, "", &mut joining);
         // an entry that both have keeps its place, its contents have theirs
         for (pointer, mark) in overlay.marks {
-            if pointer.is_empty() || !joined.contains(&pointer) || !self.marks.contains_key(&pointer) {
+            if pointer.is_empty() || !joining.joined.contains(&pointer) || !self.marks.contains_key(&pointer) {
                 self.marks.insert(pointer, Mark { source: mark.source + shift, ..mark });
             }
         }
@@ -303,7 +303,7 @@ impl Document {
         let without =
             |k: usize| dotted(&steps.iter().enumerate().filter(|(j, _)| *j != 0 && *j != k).fold(String::new(), |p, (_, s)| p + "/" + s));
         let tag =
-            (1..steps.len()).find(|k| self.inside_tag(format!("/{}", steps[..*k].join("/"))) == format!("/{}", steps[..=*k].join("/")));
+            (2..steps.len()).find(|k| self.inside_tag(format!("/{}", steps[..*k].join("/"))) == format!("/{}", steps[..=*k].join("/")));
         let shorter = [tag.map(without), Some(without(0))];
         shorter.into_iter().flatten().find(|s| self.find(s).as_deref() == Some(pointer)).unwrap_or_else(|| dotted(pointer))
     }
@@ -351,8 +351,8 @@ fn read(text: &str) -> Result<Value, (String, Option<Place>)> {
 
 /// What is known and found while documents are joined, as JSON pointers.
 struct Joining<'a> {
-    chosen: &'a [String],
-    joined: &'a mut Vec<String>,
+    chosen: HashSet<&'a str>,
+    joined: HashSet<String>,
 }
 
 fn join(base: &mut Value, overlay: Value, pointer: &str, joining: &mut Joining<'_>) {
@@ -361,11 +361,11 @@ fn join(base: &mut Value, overlay: Value, pointer: &str, joining: &mut Joining<'
         return;
     };
     let other_kind = base.as_object().is_some_and(|b| changes.keys().all(|tag| !b.contains_key(tag)));
-    if !base.is_object() || (other_kind && joining.chosen.iter().any(|p| p == pointer)) {
+    if !base.is_object() || (other_kind && joining.chosen.contains(pointer)) {
         *base = Value::Object(Map::new());
     }
     let Value::Object(entries) = base else { return };
-    joining.joined.push(pointer.to_string());
+    joining.joined.insert(pointer.to_string());
     for (key, change) in changes {
         if change.is_null() {
             entries.shift_remove(&key);

@@ -95,6 +95,9 @@ impl ExpressionError {
     /// What to do about it.
     pub fn hint(&self) -> Option<String> {
         match self {
+            Self::Syntax { text, .. } if text.matches('(').count() > text.matches(')').count() => {
+                Some("a `)` is missing; between braces a comma ends an entry of YAML, unless the formula is in quotes".to_owned())
+            }
             Self::Syntax { .. } => Some("a formula is written like `= 0.5 * spring_rate + 2 kN/m`".to_owned()),
             Self::Quantity(error) => error.hint(),
             Self::UnknownName { hint, .. } => hint.clone().or_else(|| Some("declare it under `parameters:`".to_owned())),

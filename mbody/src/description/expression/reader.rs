@@ -1,8 +1,8 @@
 //! From the text of a formula to its parts, by recursive descent.
 
 use super::{ExpressionError, FUNCTIONS, Node, Operator, PLAIN, Value, What};
-use crate::description::quantity::Unit;
 use crate::description::quantity::parse::{is_of_symbol, parse, split_number};
+use crate::description::quantity::{Unit, unit};
 
 /// Parentheses, signs and powers within each other at most.
 const DEEPEST: usize = 48;
@@ -191,7 +191,10 @@ fn unit_length(text: &str) -> usize {
         }
     }
     // a unit that nobody knows is for the reader of quantities to explain
-    if end == 0 && text.starts_with(is_of_symbol) { text.find(|c: char| !is_of_symbol(c)).unwrap_or(text.len()) } else { end }
+    let (blank, rest) = text.split_at(blanks(0));
+    let word = &rest[..rest.find(|c: char| !is_of_symbol(c)).unwrap_or(rest.len())];
+    let meant = !word.is_empty() && !rest[word.len()..].starts_with(['_', '(']) && (blank.is_empty() || unit::nearest(word).is_some());
+    if end == 0 && meant { blank.len() + word.len() } else { end }
 }
 
 /// Length of a symbol, or of units in parentheses, with its power.

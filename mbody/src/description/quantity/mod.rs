@@ -4,7 +4,7 @@ mod bound;
 pub mod dimension;
 mod error;
 pub(in crate::description) mod parse;
-mod unit;
+pub(in crate::description) mod unit;
 
 pub use bound::{Any, AtLeastZero, Bounds, Fraction, Positive, Range};
 pub use dimension::{Dimension, Dimensioned};
