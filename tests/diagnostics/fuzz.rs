@@ -257,7 +257,9 @@ fn mappings(value: &Value, pointer: String, found: &mut Vec<String>) {
 #[test]
 fn unknown_keys_are_never_passed_over() {
     let mut tried = 0;
-    for sample in corpus().iter().filter(|s| s.spoiled.ends_with(".yaml")) {
+    // of what another description includes it may replace a part; each is tried as a description of its own
+    let whole = |s: &&Sample| s.spoiled == s.texts.first || !s.text().contains("\nelements:");
+    for sample in corpus().iter().filter(|s| s.spoiled.ends_with(".yaml")).filter(whole) {
         let value: Value = serde_yaml::from_str(sample.text()).expect("the corpus is YAML");
         let mut pointers = Vec::new();
         mappings(&value, String::new(), &mut pointers);

@@ -187,8 +187,12 @@ fn compare(agreement: &mut Agreement, what: &str, a: &State, b: &State) {
 #[test]
 fn formulas_are_the_numbers_they_give() {
     let mut agreement = Agreement::on("formulas and numbers");
-    let radius = |teeth: f64| format!("{:?} m", 0.015875 / 2.0 / (std::f64::consts::PI / teeth).sin());
-    let (front, rear) = (radius(16.0), radius(44.0));
+    // pitch circles p/(2 sin(π/z)) from those of the model with 17 and 42 teeth
+    let radius = |known: f64, of: f64, teeth: f64| {
+        let sine = |z: f64| (std::f64::consts::PI / z).sin();
+        format!("{:?} m", known * sine(of) / sine(teeth))
+    };
+    let (front, rear, ratio) = (radius(0.0432, 17.0, 16.0), radius(0.10622, 42.0, 44.0), format!("{:?}", 2.471 * 44.0 / 42.0 * 17.0 / 16.0));
     let by_hand: [(&str, &[(&str, &str)], &[(&str, &str)]); 5] = [
         ("spring", &[("front_spring_rate", "28 kN/m")], &[("fork_strut.spring.stiffness", "28000")]),
         (
@@ -199,7 +203,7 @@ fn formulas_are_the_numbers_they_give() {
         (
             "sprockets",
             &[("front_sprocket", "16"), ("rear_sprocket", "44")],
-            &[("chain.front_sprocket.radius", &front), ("chain.rear_sprocket.radius", &rear), ("engine.gears.final", "2.75")],
+            &[("chain.front_sprocket.radius", &front), ("chain.rear_sprocket.radius", &rear), ("engine.gears.final", &ratio)],
         ),
         ("yokes", &[("fork_offset", "30 mm")], &[("joint.fork_bending.origin.x", "0.03")]),
         ("damper", &[("steering_damping", "9")], &[("steering_damper.coefficient", "9")]),

@@ -43,7 +43,7 @@ pub struct ParameterDescription {
     pub about: Option<String>,
 }
 
-/// What a rider or mechanic changes on the finished machine: a setup file holds values of adjustables only.
+/// What is changed on the finished machine: a setup file holds values of adjustables only.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AdjustableDescription {
