@@ -13,6 +13,7 @@ mod modes;
 mod rider;
 mod run;
 mod schema;
+mod setup;
 mod slalom;
 mod tire;
 mod trim;
@@ -44,6 +45,7 @@ pub const KINDS: &[Kind] = &[
     run::KIND,
     compare::KIND,
     tire::KIND,
+    setup::KIND,
     info::KIND,
     check::KIND,
     dynamics::KIND,

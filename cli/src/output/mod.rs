@@ -23,6 +23,7 @@ mod progress;
 mod report;
 pub mod responses;
 pub mod rider;
+pub mod setup;
 #[cfg(test)]
 mod sample;
 mod table;
@@ -54,6 +55,8 @@ pub struct Kind {
     pub write_comparison: Writer<comparison::Comparison>,
     /// Writes the curves of a tire.
     pub write_tire: Writer<tire::TireCurves>,
+    /// Writes the setup of a vehicle.
+    pub write_setup: Writer<setup::SetupReport>,
 }
 
 /// Writes a result in one format.
