@@ -54,7 +54,9 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         return Err(finding.with_hint("give one value each; `fastbike trim … --show trail` follows a signal along a sweep").into());
     }
     if request.incline != Default::default() {
-        return Err(Finding::error("contradictory_entries", "a setup is measured on the level road: leave out `--grade` and `--bank`").into());
+        return Err(
+            Finding::error("contradictory_entries", "a setup is measured on the level road: leave out `--grade` and `--bank`").into()
+        );
     }
     let loaded = model::load(&arguments.model, context)?;
     let system = &loaded.assembled.system;

@@ -67,7 +67,8 @@ pub fn curves(report: &SetupReport) -> Result<Figure, Failure> {
         ("load", "N", |s| vec![curve(s, "load", &|p| p.force, s.here.force)]),
         ("wheel rate", "kN/m", |s| vec![curve(s, "wheel rate", &|p| 1e-3 * p.wheel_rate, 1e-3 * s.here.wheel_rate)]),
         ("motion ratio", "", |s| {
-            let ratio = |k: usize| curve(s, "motion ratio", &move |p: &TravelPoint| p.springs[k].motion_ratio, s.here.springs[k].motion_ratio);
+            let ratio =
+                |k: usize| curve(s, "motion ratio", &move |p: &TravelPoint| p.springs[k].motion_ratio, s.here.springs[k].motion_ratio);
             (0..s.springs.len()).map(ratio).collect()
         }),
     ];
@@ -78,9 +79,26 @@ pub fn curves(report: &SetupReport) -> Result<Figure, Failure> {
             let mut curves = of(suspension);
             let here: Vec<(f64, f64)> = curves.iter_mut().filter_map(|c| c.points.pop()).collect();
             curves.iter_mut().for_each(|c| c.name = String::from("over the travel from full extension"));
-            let pose = here.into_iter().map(|p| Curve { name: "in the given pose".to_owned(), points: vec![p], markers: Markers::Always, variant: 0 });
+            let pose = here.into_iter().map(|p| Curve {
+                name: "in the given pose".to_owned(),
+                points: vec![p],
+                markers: Markers::Always,
+                variant: 0,
+            });
             curves.extend(pose);
-            panels.push(GridPanel { x, lines: LinePanel { y: Axis::new(label, unit), curves } });
+            // stops would hide the slope between them, and rounding is no change
+            let values: Vec<f64> = curves.iter().skip(curves.len() / 2).flat_map(|c| &c.points).map(|p| p.1).collect();
+            let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+            let y = match label {
+                "wheel rate" => Axis::new(label, unit).between(0.0, 2.5 * high),
+                "motion ratio" => {
+                    let all = curves.iter().flat_map(|c| &c.points).map(|p| p.1);
+                    let (least, most) = all.fold((low * 0.95, high * 1.05), |(l, h), v| (l.min(v), h.max(v)));
+                    Axis::new(label, unit).between(least.min(most), most.max(least))
+                }
+                _ => Axis::new(label, unit),
+            };
+            panels.push(GridPanel { x, lines: LinePanel { y, curves } });
         }
     }
     let title = format!("Suspension of {}", report.model);

@@ -23,9 +23,9 @@ mod progress;
 mod report;
 pub mod responses;
 pub mod rider;
-pub mod setup;
 #[cfg(test)]
 mod sample;
+pub mod setup;
 mod table;
 pub mod tire;
 mod units;

@@ -100,7 +100,8 @@ pub(super) fn write_table(report: &SetupReport, options: &Options, out: &mut dyn
     group("mass center and inertia", &lines(&setup.mass), options, out)?;
     for suspension in &setup.suspensions {
         let numbers = numbers(suspension);
-        let lines: Vec<Line<'_>> = numbers.iter().map(|(name, unit, value, about)| line(name, unit, *value, about, options.angles)).collect();
+        let lines: Vec<Line<'_>> =
+            numbers.iter().map(|(name, unit, value, about)| line(name, unit, *value, about, options.angles)).collect();
         group(&format!("{} suspension", suspension.axle), &lines, options, out)?;
     }
     group("squat and dive", &lines(&setup.pull), options, out)?;
@@ -118,7 +119,10 @@ fn components(components: &[Component], options: &Options, out: &mut dyn io::Wri
     writeln!(
         out,
         "{}",
-        styled(options.palette.faint, "  center from the rear contact, forward and up; share of the inertia about the mass center of the whole")
+        styled(
+            options.palette.faint,
+            "  center from the rear contact, forward and up; share of the inertia about the mass center of the whole"
+        )
     )?;
     let columns: [(&str, fn(&Component) -> f64); 6] = [
         ("kg", |c| c.mass.mass),

@@ -130,7 +130,9 @@ impl Sketch {
                     }
                 }
                 Shape::Point { .. } | Shape::Note { .. } => {}
-                Shape::Dimension { from, to, text, row } => draw_dimension(&mut canvas, (place(*from), place(*to)), text, ground + *row as f64 * ROW),
+                Shape::Dimension { from, to, text, row } => {
+                    draw_dimension(&mut canvas, (place(*from), place(*to)), text, ground + *row as f64 * ROW)
+                }
             }
         }
         // points and words over the lines

@@ -36,10 +36,30 @@ pub(super) fn geometry(parts: &Parts, poses: &[Pose<f64>]) -> Vec<Quantity> {
         let on_road = X.p - s.scaled(X.p.z / s.z);
         let center = mean(parts.front.iter().map(|w| w.center(poses)));
         found.extend([
-            Quantity::new("rake", "rad", (-inward.x).atan2(inward.z), "inclination of the steering axis against the vertical, positive backward"),
-            Quantity::new("trail", "m", (on_road - front).dot(forward), "from the front contact point forward to the steering axis, on the road"),
-            Quantity::new("normal_trail", "m", (front - X.p).cross(s).dot(left), "distance of the front contact point from the steering axis"),
-            Quantity::new("fork_offset", "m", -(center - X.p).cross(s).dot(left), "distance of the front axle from the steering axis, positive ahead of it"),
+            Quantity::new(
+                "rake",
+                "rad",
+                (-inward.x).atan2(inward.z),
+                "inclination of the steering axis against the vertical, positive backward",
+            ),
+            Quantity::new(
+                "trail",
+                "m",
+                (on_road - front).dot(forward),
+                "from the front contact point forward to the steering axis, on the road",
+            ),
+            Quantity::new(
+                "normal_trail",
+                "m",
+                (front - X.p).cross(s).dot(left),
+                "distance of the front contact point from the steering axis",
+            ),
+            Quantity::new(
+                "fork_offset",
+                "m",
+                -(center - X.p).cross(s).dot(left),
+                "distance of the front axle from the steering axis, positive ahead of it",
+            ),
         ]);
     }
     found.push(Quantity::new("wheelbase", "m", (front - rear).norm(), "distance of the contact points"));

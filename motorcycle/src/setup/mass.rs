@@ -65,6 +65,11 @@ pub(super) fn quantities(parts: &Parts, whole: &MassProperties, gravity: f64, po
         ]);
     }
     let angle = (c.z / front).atan();
-    found.push(Quantity::new("load_transfer_angle", "rad", angle, "slope of the line of load transfer: height of the mass center over wheelbase"));
+    found.push(Quantity::new(
+        "load_transfer_angle",
+        "rad",
+        angle,
+        "slope of the line of load transfer: height of the mass center over wheelbase",
+    ));
     found
 }

@@ -164,11 +164,5 @@ fn side_view(
         let s = X.R * axis;
         [flat(X.p - s.scaled(X.p.z / s.z)), flat(X.p)]
     });
-    SideView {
-        wheels: wheels.collect(),
-        mass_center: [whole.center.x, whole.center.z],
-        front_contact: [front, 0.0],
-        steering_axis,
-        squat,
-    }
+    SideView { wheels: wheels.collect(), mass_center: [whole.center.x, whole.center.z], front_contact: [front, 0.0], steering_axis, squat }
 }

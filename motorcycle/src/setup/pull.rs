@@ -103,7 +103,12 @@ pub(super) fn squat(
     let rate = contact_rate(wheel, poses, &heading, center, omega);
     let slope = -rate.x / rate.z;
     let mut found = vec![
-        Quantity::new("squat_angle", "rad", slope.atan(), "slope of the line along which the road pushes the rear wheel without moving its spring"),
+        Quantity::new(
+            "squat_angle",
+            "rad",
+            slope.atan(),
+            "slope of the line along which the road pushes the rear wheel without moving its spring",
+        ),
         Quantity::new("squat_ratio", "-", transfer / slope, "above 1 thrust compresses the rear, below 1 it extends it"),
     ];
     let mut lines = SquatLines { slope, ..SquatLines::default() };
@@ -128,6 +133,11 @@ pub(super) fn squat(
             let flat_run = ChainRun { front, rear, direction: direction.scaled(1.0 / direction.norm()), length: run.length };
             let A = squat::squat_point(&flat_run, pivot.into(), axle.into());
             lines.squat_point = Some([A.x, A.z]).filter(|p| p.iter().all(|v| v.is_finite()));
+            if lines.squat_point.is_some() {
+                let about = "where the upper run of the chain meets the line from axle to pivot, ahead of the rear contact";
+                found.push(Quantity::new("squat_point_forward", "m", A.x, about));
+                found.push(Quantity::new("squat_point_height", "m", A.z, "height of that point above the road"));
+            }
         }
     }
     Ok((found, lines))
@@ -162,7 +172,17 @@ pub(super) fn dive(
     let rate = contact_rate(wheel, poses, &heading, suspension.motion.center(wheel), suspension.motion.turn(reaction));
     let slope = rate.x / rate.z;
     Ok(vec![
-        Quantity::new("braking_angle", "rad", slope.atan(), "slope of the line along which braking the front wheel would not move its spring; negative: braking itself compresses it"),
-        Quantity::new("anti_dive", "-", slope / transfer, "share of the load transfer that does not compress the front when the front wheel alone brakes"),
+        Quantity::new(
+            "braking_angle",
+            "rad",
+            slope.atan(),
+            "slope of the line along which braking the front wheel would not move its spring; negative: braking itself compresses it",
+        ),
+        Quantity::new(
+            "anti_dive",
+            "-",
+            slope / transfer,
+            "share of the load transfer that does not compress the front when the front wheel alone brakes",
+        ),
     ])
 }

@@ -179,7 +179,8 @@ impl<'m> Stand<'m> {
         let (unknowns, equations) = (plant.unknowns(), plant.equations());
         let weight = (model.total_mass() * model.gravity().norm()).max(1.0);
         let unknown_scale = coordinates.iter().map(|c| unknowns[c.0].nominal).chain(multipliers.iter().map(|&i| unknowns[i].nominal));
-        let equation_scale = coordinates.iter().map(|c| equations[nq + c.1].nominal).chain(multipliers.iter().map(|&i| equations[i].nominal));
+        let equation_scale =
+            coordinates.iter().map(|c| equations[nq + c.1].nominal).chain(multipliers.iter().map(|&i| equations[i].nominal));
         let jack = Jack {
             unknown_scale: unknown_scale.chain(wheels.iter().map(|_| weight)).collect(),
             equation_scale: equation_scale.chain(wheels.iter().map(|_| 0.1)).collect(),

@@ -33,7 +33,7 @@ const STEP: f64 = 2.5e-3;
 /// Travel in either direction at which a curve ends where nothing else ends it, m.
 const LONGEST: f64 = 0.25;
 /// Multiple of the static load beyond which a curve ends.
-const MOST_LOAD: f64 = 4.0;
+const MOST_LOAD: f64 = 12.0;
 /// Motion ratio below which a spring does not belong to an axle.
 const IDLE: f64 = 1e-3;
 /// Speed of the wheel at which dampers are judged, m/s.
@@ -74,7 +74,7 @@ pub struct Suspension {
     pub here: TravelPoint,
     /// Reduced damping in bump and rebound at a wheel speed of 0.1 m/s, N s/m.
     pub damping: [f64; 2],
-    /// Travel from full extension to the stop of the bump, m; none where no stop is reached below four times the load.
+    /// Travel from full extension to the stop of the bump, m; none where no stop is used up below twelve times the load.
     pub stop: Option<f64>,
     /// The curves, from full extension on.
     pub curve: Vec<TravelPoint>,
@@ -213,8 +213,8 @@ pub(super) fn suspension<'a>(
     pose: &[f64],
     method: &'a mut dyn AlgebraicMethod,
 ) -> Result<Suspension, String> {
-    let stand = Stand::new(system, parts, wheels, pose, method)
-        .ok_or_else(|| "no joint lets the wheel move against the chassis".to_owned())?;
+    let stand =
+        Stand::new(system, parts, wheels, pose, method).ok_or_else(|| "no joint lets the wheel move against the chassis".to_owned())?;
     let springs: Vec<Spring<'_>> = system.elements().iter().filter_map(|e| Spring::of(system, e)).collect();
     let names = system.unknowns().iter().map(|u| &u.signal.name).chain(system.outputs().iter().map(|o| &o.name));
     let names: Vec<&String> = names.collect();
