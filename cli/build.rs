@@ -21,14 +21,14 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// Descriptions, trees and data; not the prose beside them.
+/// Descriptions, trees, data, and where their numbers come from.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     println!("cargo::rerun-if-changed={}", folder.display());
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
             collect(&path, files)?;
-        } else if path.extension().is_some_and(|e| e == "yaml" || e == "urdf" || e == "tir") {
+        } else if path.extension().is_some_and(|e| e == "yaml" || e == "urdf" || e == "tir" || e == "md") {
             files.push(path);
         }
     }

@@ -23,6 +23,11 @@ impl<'a> Vehicles<'a> {
         Self { blueprint, source, kinds, reactions, parameters }
     }
 
+    /// Whether the value of a parameter follows from no other one.
+    pub fn is_free(&self, id: ParameterId) -> bool {
+        !self.blueprint.entries()[id.0].derived
+    }
+
     /// The parameter with this path.
     pub fn find(&self, path: &str) -> Option<ParameterId> {
         self.parameters.iter().position(|p| p.name == path).map(ParameterId)

@@ -9,6 +9,7 @@ pub mod backend;
 pub mod commands;
 pub mod comparison;
 pub mod console;
+pub mod explain;
 pub mod family;
 pub mod figures;
 pub mod incline;

@@ -1,7 +1,7 @@
 //! Where descriptions come from: the bundled models, or the disk.
 
-use mbody::description::Library;
 use mbody::description::finding::{Finding, Findings, nearest, suggestion};
+use mbody::description::{Library, beside};
 use std::borrow::Cow;
 use std::fs;
 use std::io::ErrorKind;
@@ -26,7 +26,8 @@ pub struct Source {
     bundled: String,
 }
 
-fn bundled(name: &str) -> Option<&'static str> {
+/// Text of a bundled file, by its name below `models/`.
+pub fn bundled_file(name: &str) -> Option<&'static str> {
     BUNDLED.iter().find(|(n, _)| *n == name).map(|(_, text)| *text)
 }
 
@@ -41,6 +42,11 @@ pub fn bundled_models() -> Vec<&'static str> {
     let mut names: Vec<&str> = names.collect();
     names.dedup();
     names
+}
+
+/// Names of all bundled setups.
+pub fn bundled_setups() -> Vec<&'static str> {
+    BUNDLED.iter().filter_map(|(path, _)| path.strip_prefix("setups/")?.strip_suffix(".yaml")).collect()
 }
 
 /// Names of all bundled maneuvers.
@@ -59,7 +65,7 @@ pub fn maneuver(name: &str) -> Result<Source, Findings> {
         return Ok(Source::on_disk(path));
     }
     let file = format!("{name}.yaml");
-    if bundled(&format!("maneuvers/{file}")).is_some() {
+    if bundled_file(&format!("maneuvers/{file}")).is_some() {
         return Ok(Source { file, name: name.to_owned(), folder: None, bundled: "maneuvers".to_owned() });
     }
     let known = bundled_maneuvers();
@@ -82,7 +88,7 @@ pub fn tire(name: &str) -> Result<Option<Source>, Findings> {
         readable(path, name)?;
         return Ok(Some(Source::on_disk(path)));
     }
-    let found = ["yaml", "tir"].map(|e| format!("{name}.{e}")).into_iter().find(|file| bundled(&format!("tires/{file}")).is_some());
+    let found = ["yaml", "tir"].map(|e| format!("{name}.{e}")).into_iter().find(|file| bundled_file(&format!("tires/{file}")).is_some());
     Ok(found.map(|file| Source { file, name: name.to_owned(), folder: None, bundled: "tires".to_owned() }))
 }
 
@@ -98,15 +104,19 @@ impl Source {
         for folder in FOLDERS {
             for extension in ["yaml", "urdf"] {
                 let path = format!("{folder}/{model}");
-                if bundled(&format!("{path}/{model}.{extension}")).is_some() {
+                if bundled_file(&format!("{path}/{model}.{extension}")).is_some() {
                     return Ok(Self { file: format!("{model}.{extension}"), name: model.to_owned(), folder: None, bundled: path });
                 }
             }
         }
+        let file = format!("{model}.yaml");
+        if bundled_file(&format!("setups/{file}")).is_some() {
+            return Ok(Self { file, name: model.to_owned(), folder: None, bundled: "setups".to_owned() });
+        }
         if path.exists() {
             return Err(no_description(path, model).into());
         }
-        let known = bundled_models();
+        let known = [bundled_models(), bundled_setups()].concat();
         let finding = Finding::error("unknown_model", format!("there is no bundled model `{model}`"));
         Err(finding.with_hint_from(suggestion(model, known.iter().copied())).into())
     }
@@ -117,6 +127,11 @@ impl Source {
         let name = path.file_stem().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_path_buf();
         Self { file, name, folder: Some(folder), bundled: String::new() }
+    }
+
+    /// Whether it is compiled into the command.
+    pub fn is_bundled(&self) -> bool {
+        self.folder.is_none()
     }
 
     /// Whether the description is a plain URDF.
@@ -152,12 +167,39 @@ fn no_description(path: &Path, model: &str) -> Finding {
         .with_hint("give the path of a .yaml description or of a plain .urdf, or the name of a bundled model")
 }
 
+/// In front of the name of a bundled file below `models/`, where a text on disk or in another folder refers to it.
+const SCHEME: &str = "bundled:";
+
+/// Folders of bundled files that are found by their bare name.
+const SHARED: [&str; 2] = ["parts", "tires"];
+
 impl Library for Source {
     fn text(&self, name: &str) -> Option<Cow<'_, str>> {
+        if let Some(path) = name.strip_prefix(SCHEME) {
+            return bundled_file(path).map(Cow::Borrowed);
+        }
         let beside = match &self.folder {
             Some(folder) => fs::read_to_string(folder.join(name)).ok().map(Cow::Owned),
-            None => bundled(&format!("{}/{name}", self.bundled)).map(Cow::Borrowed),
+            None => bundled_file(&beside(&format!("{}/", self.bundled), name)).map(Cow::Borrowed),
         };
-        beside.or_else(|| bundled(&format!("tires/{name}")).map(Cow::Borrowed))
+        beside.or_else(|| SHARED.iter().find_map(|folder| bundled_file(&format!("{folder}/{name}"))).map(Cow::Borrowed))
+    }
+
+    /// A file beside the text, then a bundled model, part or tire. The ending `.yaml` may be left out.
+    fn resolve(&self, name: &str, within: &str) -> String {
+        let near = match within.strip_prefix(SCHEME) {
+            Some(within) => format!("{SCHEME}{}", beside(within, name)),
+            None => beside(within, name),
+        };
+        let candidates = match name.strip_prefix(SCHEME) {
+            Some(_) => vec![name.to_owned()],
+            None => {
+                let model = FOLDERS.iter().map(|folder| format!("{SCHEME}{folder}/{name}/{name}.yaml"));
+                let setup = format!("{SCHEME}setups/{name}.yaml");
+                let shared = SHARED.iter().flat_map(|f| ["", ".yaml"].map(|end| format!("{SCHEME}{f}/{name}{end}")));
+                [near.clone(), format!("{near}.yaml")].into_iter().chain(model).chain([setup]).chain(shared).collect()
+            }
+        };
+        candidates.into_iter().find(|c| self.text(c).is_some()).unwrap_or(near)
     }
 }

@@ -6,7 +6,7 @@ use crate::library::Source;
 use crate::output::{self, Options, Point, Report, Results};
 use crate::plot::{Figure, FileFormat};
 use crate::steady::{self, Steady};
-use crate::{Context, Exit, Failure};
+use crate::{Context, Exit, Failure, model};
 use mbody::description::Library;
 use mbody::dynamics::{System, TreePlant};
 use problem::Signal;
@@ -107,9 +107,7 @@ fn keep<R: Results>(
 /// Inputs with hashes, version and statistics.
 fn inputs<R: Results>(context: &Context, report: &R, model: &ModelArguments) -> serde_json::Value {
     let files = Source::find(&model.model).map(|source| {
-        let mut names = vec![source.file.clone()];
-        let text = source.text(&source.file).unwrap_or_default().into_owned();
-        names.extend(text.lines().filter_map(|l| l.strip_prefix("urdf:")).map(|u| u.trim().to_owned()));
+        let names = model::texts(&source, &context.kinds).unwrap_or_else(|_| vec![source.file.clone()]);
         names
             .into_iter()
             .map(|name| json!({ "file": name, "fnv1a": hash(source.text(&name).unwrap_or_default().as_bytes()) }))

@@ -62,8 +62,8 @@ pub fn add(
     if let Some(name) = wanted.modes.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(unknown_name("sensitivity", name, ("mode", name), known).into());
     }
-    // a parameter that is zero moves nothing by a share of itself
-    let all = || (0..family.parameters().len()).map(ParameterId).filter(|id| family.parameters()[id.0].value != 0.0);
+    // a parameter that is zero moves nothing by a share of itself; what follows from others is told with them
+    let all = || (0..family.parameters().len()).map(ParameterId).filter(|id| family.is_free(*id) && family.parameters()[id.0].value != 0.0);
     let parameters: Vec<ParameterId> = if wanted.parameters.is_empty() { all().collect() } else { wanted.parameters.clone() };
     let states = small.states(steady);
     let progress = Progress::new("sensitivities", steady.points.len() * parameters.len());

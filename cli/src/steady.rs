@@ -195,7 +195,7 @@ impl Job<'_> {
         let Some(speed) = goals.first().and_then(|g| g.speed) else { return Ok(None) };
         let mut plant = TreePlant::new(self.system.clone());
         let mut plan = self.request.moving(&plant, self.system, Drive::Engine, speed)?;
-        plan.start_from(&self.system, &self.rest, speed);
+        plan.start_from(self.system, &self.rest, speed);
         let mut problem = TrimProblem::new(&mut plant, &plan.trim)?;
         let mut method = (self.backend.make)();
         let walk = Walk { largest_steps: plan.largest_steps.clone(), ..Walk::default() };
@@ -290,7 +290,7 @@ impl Job<'_> {
         let with = |drive| -> Result<TrimPoint, Failure> {
             let mut plant = TreePlant::new(system.clone());
             let mut plan = request.moving(&plant, system, drive, speed)?;
-            plan.start_from(&self.system, &self.rest, speed);
+            plan.start_from(self.system, &self.rest, speed);
             walk(&mut plant, &plan, self.backend, &goals).map_err(Failure::Trim)
         };
         if goal.acceleration.is_none_or(|a| a >= 0.0) {

@@ -34,6 +34,10 @@ impl Library for Extended<'_> {
         let text = self.source.text(name)?;
         Some(if name == self.source.file { Cow::Owned(format!("{text}{}", self.elements)) } else { text })
     }
+
+    fn resolve(&self, name: &str, within: &str) -> String {
+        self.source.resolve(name, within)
+    }
 }
 
 /// A bundled description whose files are rewritten.

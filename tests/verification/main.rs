@@ -3,6 +3,7 @@
 #![allow(non_snake_case)]
 
 mod bundled;
+mod composition;
 mod every_constraint;
 mod every_element;
 mod every_joint;
@@ -35,6 +36,7 @@ fn the_table_of_evidence_is_up_to_date() {
             linear::EVIDENCE,
             responses::EVIDENCE,
             bundled::EVIDENCE,
+            composition::EVIDENCE,
             invariance::EVIDENCE,
             sensitivity::EVIDENCE,
             ride::EVIDENCE,

@@ -2,14 +2,16 @@
 
 use super::{Kind, read};
 use crate::arguments::ModelArguments;
-use crate::library::{Source, bundled_models};
+use crate::explain::{Dictionary, Told};
+use crate::library::{Source, bundled_models, bundled_setups};
+use crate::output::number::number;
 use crate::{Context, Exit, Failure, model};
 use clap::{ArgMatches, Args, Command};
-use mbody::assembly::{Assembled, BaseDescription};
+use mbody::assembly::{Assembled, BaseDescription, Blueprint};
 use mbody::description::Library;
+use mbody::description::parameter::Parameter;
 use mbody::model::BodyIndex;
 use problem::{Signal, UnknownKind};
-use serde_json::Value;
 use std::fmt::Write;
 
 /// Row of the table of commands.
@@ -42,7 +44,8 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         (Some(name), false) => {
             let model = ModelArguments { model: name.clone(), set: arguments.set.clone(), reactions: false };
             let base = if arguments.floating { BaseDescription::Free } else { BaseDescription::Fixed };
-            about(&model::load_on(&model, context, base, 9.81)?.assembled)
+            let loaded = model::load_on(&model, context, base, 9.81)?;
+            about(&loaded.assembled) + &named(&loaded.blueprint)
         }
     };
     context.console.print(text.as_bytes())?;
@@ -57,46 +60,34 @@ fn bundled(context: &Context) -> Result<String, Failure> {
         let about = source.text(&source.file).and_then(|t| t.lines().find_map(|l| l.strip_prefix("name:").map(|n| n.trim().to_owned())));
         let _ = writeln!(text, "  {name:<14} {}", about.unwrap_or_default());
     }
+    let _ = writeln!(text, "bundled setups of them: {}", bundled_setups().join(", "));
     let _ = writeln!(text, "{} kinds of elements (fastbike info --kinds)", context.kinds.elements().len());
     Ok(text)
 }
 
-/// Every kind of elements, then every kind of sections, with parameters and an example.
+/// Every kind of elements, of constraints, then of sections, with parameters and an example.
 fn kinds(context: &Context) -> String {
-    let mut text = String::new();
-    let schema = mbody::assembly::schema(&context.kinds);
-    let choices = &schema["properties"]["elements"]["additionalProperties"]["oneOf"];
-    for kind in context.kinds.elements() {
-        one(&mut text, &schema, choices, (kind.name, kind.about, kind.example));
-    }
-    let _ = writeln!(text, "sections of the path of a maneuver\n");
-    let schema = motorcycle::maneuver::schema();
-    let choices = &schema["properties"]["path"]["items"]["oneOf"];
-    for kind in motorcycle::maneuver::section::KINDS {
-        one(&mut text, &schema, choices, (kind.name, kind.about, kind.example));
-    }
-    text
+    let dictionary = Dictionary::of(&context.kinds);
+    let told = |table: Vec<Told<'_>>| table.into_iter().map(|k| dictionary.kind(k.0)).collect::<String>();
+    let (elements, constraints) = (told(dictionary.elements()), told(dictionary.constraints()));
+    format!("{elements}constraints\n\n{constraints}sections of the path of a maneuver\n\n{}", told(dictionary.sections()))
 }
 
-/// One kind among the choices of a schema.
-fn one(text: &mut String, schema: &Value, choices: &Value, (name, about, example): (&str, &str, &str)) {
-    let _ = writeln!(text, "{name} — {about}");
-    let choice = choices.as_array().and_then(|c| c.iter().find(|c| c["properties"].get(name).is_some()));
-    let parameters = choice.map(|c| resolved(schema, &c["properties"][name]));
-    if let Some(properties) = parameters.and_then(|p| p["properties"].as_object()) {
-        for (key, entry) in properties {
-            let unit = entry.get("quantity").and_then(|q| q.as_str()).map(|u| format!(" [{u}]")).unwrap_or_default();
-            let sentence = entry.get("description").and_then(|d| d.as_str()).unwrap_or_default().replace('\n', " ");
-            let _ = writeln!(text, "    {key}{unit}: {sentence}");
+/// What may be changed by name: adjustables with their ranges, then parameters.
+fn named(blueprint: &Blueprint) -> String {
+    let mut text = String::new();
+    for (title, adjustable) in [("adjustables", true), ("parameters", false)] {
+        let of_sort: Vec<&Parameter> = blueprint.parameters().iter().filter(|p| p.range.is_some() == adjustable).collect();
+        if !of_sort.is_empty() {
+            let _ = writeln!(text, "\n{title}");
+        }
+        for p in of_sort {
+            let unit = p.dimension().map(|d| d.unit).filter(|u| *u != "1").unwrap_or_default();
+            let range = p.range.map(|(low, high)| format!("{} to {}", number(low), number(high))).unwrap_or_default();
+            let _ = writeln!(text, "  {:<22} {:>12} {unit:<8} {range:<18} {}", p.name, number(p.value.si), p.about);
         }
     }
-    let _ = writeln!(text, "    example: {name}: {}\n", example.split_whitespace().collect::<Vec<_>>().join(" "));
-}
-
-/// Follows a reference within the schema.
-fn resolved<'a>(schema: &'a Value, entry: &'a Value) -> &'a Value {
-    let target = entry.get("$ref").and_then(|r| r.as_str()).and_then(|r| r.strip_prefix('#')).and_then(|p| schema.pointer(p));
-    target.unwrap_or(entry)
+    text
 }
 
 fn about(assembled: &Assembled) -> String {

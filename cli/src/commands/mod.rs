@@ -4,12 +4,14 @@ mod check;
 mod comfort;
 mod compare;
 mod dynamics;
+mod explain;
 mod frf;
 mod handling;
 mod info;
 mod linearize;
 mod map;
 mod modes;
+mod new;
 mod rider;
 mod run;
 mod schema;
@@ -49,6 +51,8 @@ pub const KINDS: &[Kind] = &[
     info::KIND,
     check::KIND,
     dynamics::KIND,
+    new::KIND,
+    explain::KIND,
     schema::KIND,
 ];
 

@@ -15,6 +15,9 @@ struct Arguments {
     /// The schema of tire law files instead of that of descriptions
     #[arg(long, conflicts_with = "maneuver")]
     tire: bool,
+    /// The schema of parts, of descriptions that change what they include, and of setups: nothing in it is required
+    #[arg(long, conflicts_with_all = ["maneuver", "tire"])]
+    part: bool,
 }
 
 fn command(command: Command) -> Command {
@@ -23,10 +26,11 @@ fn command(command: Command) -> Command {
 
 fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let arguments: Arguments = read(matches)?;
-    let schema = match (arguments.maneuver, arguments.tire) {
-        (true, _) => motorcycle::maneuver::schema(),
-        (_, true) => motorcycle::tire::law_description::schema(),
-        _ => mbody::assembly::schema(&context.kinds),
+    let schema = match (arguments.maneuver, arguments.tire, arguments.part) {
+        (true, ..) => motorcycle::maneuver::schema(),
+        (_, true, _) => motorcycle::tire::law_description::schema(),
+        (_, _, true) => mbody::assembly::part_schema(&context.kinds),
+        _ => mbody::assembly::editor_schema(&context.kinds),
     };
     context.console.print(format!("{schema:#}\n").as_bytes())?;
     Ok(Exit::Done)

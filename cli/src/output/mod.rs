@@ -17,7 +17,7 @@ pub mod linear;
 mod mat;
 pub mod modes;
 mod npz;
-mod number;
+pub mod number;
 mod palette;
 mod progress;
 mod report;

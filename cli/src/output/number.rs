@@ -6,7 +6,7 @@ const SIGNIFICANT: i32 = 6;
 const NOISE: f64 = 1e-12;
 
 /// `value` with six significant digits and without trailing zeros; an exponent only below 1e-4 and from 1e7 on; `-` for no value.
-pub(super) fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     if !value.is_finite() {
         return "-".to_owned();
     }

@@ -93,7 +93,7 @@ pub(super) fn join(
     let locked: Vec<String> = description.joints.iter().filter(|(_, o)| o.locked).map(|(name, _)| name.clone()).collect();
     let mut of_loops = Findings::new();
     let stated = closing::start_coordinates(&model, &description.start, &mut of_loops);
-    let (constraints, tied) = constraints(&description, &model, &stated, &locked, library, kinds, &mut of_loops);
+    let (constraints, tied) = constraints(&description, &model, &stated, &locked, (library, document), kinds, &mut of_loops);
     let closed = match of_loops.has_errors() {
         true => None,
         false => closing::close(&model, constraints, &stated, &mut of_loops),
@@ -119,6 +119,7 @@ pub(super) fn join(
             locked: &locked,
             constraints: &closed.constraints,
             library,
+            document,
             findings: &mut of_elements,
             left_out: None,
         };
@@ -165,7 +166,7 @@ fn constraints(
     model: &Model,
     stated: &[(usize, f64)],
     locked: &[String],
-    library: &dyn Library,
+    (library, document): (&dyn Library, &Document),
     kinds: &Kinds,
     findings: &mut Findings,
 ) -> (Vec<Constraint>, Vec<(String, String)>) {
@@ -178,8 +179,18 @@ fn constraints(
         let Some((tag, parameters)) = closing::entry(value) else { continue };
         let Some(kind) = kinds.constraint(tag) else { continue };
         let path = format!("constraints.{name}.{tag}");
-        let mut site =
-            Site { element: name, path, model, design: &before.world, locked, constraints: &[], library, findings, left_out: None };
+        let mut site = Site {
+            element: name,
+            path,
+            model,
+            design: &before.world,
+            locked,
+            constraints: &[],
+            library,
+            document,
+            findings,
+            left_out: None,
+        };
         built.extend((kind.build)(&mut site, parameters));
         named.push((name.clone(), tag.to_owned()));
     }

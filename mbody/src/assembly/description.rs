@@ -1,7 +1,8 @@
 //! What a description file may say, and its JSON Schema.
 
 use super::Kinds;
-use crate::description::quantity::dimension::{Acceleration, Length};
+use crate::description::parameter::{AdjustableDescription, ParameterDescription};
+use crate::description::quantity::dimension::{Acceleration, Angle, Inertia, Length, Mass, Number};
 use crate::description::quantity::{NonNegativeQuantity, Quantity};
 use schemars::{JsonSchema, Schema, generate::SchemaSettings};
 use serde::Deserialize;
@@ -19,13 +20,22 @@ pub struct Description {
     pub name: String,
     /// A sentence or two: what it is and where the numbers come from.
     pub about: Option<String>,
-    /// URDF file with links and joints, beside this file.
-    pub urdf: String,
+    /// URDF file with links and joints, beside this file; or several of them, by the name of the part.
+    pub urdf: TreeFiles,
     /// Joint between the world and the root link.
     pub base: BaseDescription,
     /// Acceleration of free fall, downward; 9.81 m/s² where left out.
     pub gravity: Option<NonNegativeQuantity<Acceleration>>,
-    /// What URDF cannot say about its joints.
+    /// Named quantities, from which other entries follow by formulas: `= 0.5 * spring_rate`.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, ParameterDescription>,
+    /// What is changed on the finished machine, with its range; a setup file holds values of these only.
+    #[serde(default)]
+    pub adjustables: BTreeMap<String, AdjustableDescription>,
+    /// Other mass properties for links of the URDF.
+    #[serde(default)]
+    pub links: BTreeMap<String, LinkOptions>,
+    /// Joints of the URDF at another place, locked, or of a kind that URDF does not know.
     #[serde(default)]
     pub joints: BTreeMap<String, JointOptions>,
     /// Values of signals from which assembly, steady states and motions start: `crank.angle: 30 deg`. What is stated here is held while
@@ -54,7 +64,83 @@ pub enum BaseDescription {
     VehicleBase,
 }
 
-/// What URDF cannot say about a joint.
+/// The tree: one file, or parts that joints connect.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum TreeFiles {
+    /// The whole tree.
+    One(String),
+    /// Parts by name: a joint of one may carry its link on a link of another.
+    Parts(BTreeMap<String, String>),
+}
+
+/// Mass properties of a link in place of those in the URDF, in the axes written there.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LinkOptions {
+    /// Mass.
+    pub mass: Option<Quantity<Mass>>,
+    /// Mass center in the frame of the link.
+    pub com: Option<Coordinates>,
+    /// Moments and products of inertia about the mass center (products with their sign, `ixy` = −∫ x y dm).
+    pub inertia: Option<InertiaOptions>,
+}
+
+/// A point by its coordinates; those that are left out stay.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Coordinates {
+    /// Forward.
+    pub x: Option<Quantity<Length>>,
+    /// To the left.
+    pub y: Option<Quantity<Length>>,
+    /// Up.
+    pub z: Option<Quantity<Length>>,
+}
+
+/// Entries of an inertia tensor; those that are left out stay.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InertiaOptions {
+    /// Moment about x.
+    pub ixx: Option<Quantity<Inertia>>,
+    /// Moment about y.
+    pub iyy: Option<Quantity<Inertia>>,
+    /// Moment about z.
+    pub izz: Option<Quantity<Inertia>>,
+    /// Product of x and y.
+    pub ixy: Option<Quantity<Inertia>>,
+    /// Product of x and z.
+    pub ixz: Option<Quantity<Inertia>>,
+    /// Product of y and z.
+    pub iyz: Option<Quantity<Inertia>>,
+}
+
+/// Angles of the fixed axes x, y, z, one after the other; those that are left out stay.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AngleOptions {
+    /// Roll.
+    pub r: Option<Quantity<Angle>>,
+    /// Pitch.
+    pub p: Option<Quantity<Angle>>,
+    /// Yaw.
+    pub y: Option<Quantity<Angle>>,
+}
+
+/// Components of a direction; those that are left out stay.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DirectionOptions {
+    /// Forward.
+    pub x: Option<Quantity<Number>>,
+    /// To the left.
+    pub y: Option<Quantity<Number>>,
+    /// Up.
+    pub z: Option<Quantity<Number>>,
+}
+
+/// What URDF cannot say about a joint, and what is to be otherwise than it says.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointOptions {
@@ -65,6 +151,12 @@ pub struct JointOptions {
     pub kind: Option<JointKindDescription>,
     /// Advance of a screw per radian.
     pub pitch: Option<Quantity<Length>>,
+    /// Origin of the joint in its parent link, in place of that in the URDF.
+    pub origin: Option<Coordinates>,
+    /// Orientation of the joint in its parent link, in place of that in the URDF.
+    pub rpy: Option<AngleOptions>,
+    /// Axis of the joint, in place of that in the URDF.
+    pub axis: Option<DirectionOptions>,
 }
 
 /// Kinds of joints that URDF does not know.

@@ -1,7 +1,8 @@
 //! Where an element is built: names become bodies here, and findings get their place in the file.
 
 use crate::constraint::Constraint;
-use crate::description::Library;
+use crate::description::{Library, SeenFrom};
+use crate::description::document::Document;
 use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::quantity::{Quantity, dimension::Length};
 use crate::model::{BodyIndex, Model};
@@ -29,6 +30,7 @@ pub struct Site<'a> {
     pub(super) locked: &'a [String],
     pub(super) constraints: &'a [Constraint],
     pub(super) library: &'a dyn Library,
+    pub(super) document: &'a Document,
     pub(super) findings: &'a mut Findings,
     pub(super) left_out: Option<String>,
 }
@@ -137,14 +139,15 @@ impl<'a> Site<'a> {
         self.findings.extend(findings);
     }
 
-    /// The texts that the description may refer to.
-    pub fn library(&self) -> &'a dyn Library {
-        self.library
+    /// The texts to which entry `key` may refer, by names relative to the file in which it stands.
+    pub fn library(&self, key: &str) -> SeenFrom<'a> {
+        let entry = self.document.pointer_of(&format!("{}.{key}", self.path)).unwrap_or_default();
+        SeenFrom { library: self.library, within: self.document.file_of(&entry).to_owned() }
     }
 
-    /// Text that the description refers to: a table, a data file.
+    /// Text that the description refers to: a table, a data file. Its name is relative to the file in which it is named.
     pub fn text(&mut self, key: &str, name: &str) -> Option<String> {
-        let found = self.library.text(name).map(|t| t.into_owned());
+        let found = self.library(key).text(name).map(|t| t.into_owned());
         if found.is_none() {
             self.refuse(key, "missing_file", format!("file `{name}` was not found"));
         }

@@ -4,6 +4,7 @@
 //! error[unknown_key]: unknown key `stifness`
 //!   --> plant.yaml:12:5 (elements.shock.spring_damper.stifness)
 //!    12 | stifness: 58 kN/m
+//!       | ^
 //!    hint: did you mean `stiffness`?
 //! ```
 
@@ -54,6 +55,9 @@ pub struct Finding {
     /// The line of the text, without indentation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub excerpt: Option<String>,
+    /// Characters of the excerpt before the column.
+    #[serde(skip)]
+    pub caret: Option<usize>,
     /// What is wrong: one line, lower case, names in back-ticks.
     pub message: String,
     /// What to do about it.
@@ -72,6 +76,7 @@ impl Finding {
             column: None,
             path: String::new(),
             excerpt: None,
+            caret: None,
             message: one_line(message.into()),
             hint: None,
         }
@@ -109,7 +114,15 @@ impl Finding {
         self.line = Some(line);
         self.column = Some(column);
         self.excerpt = excerpt(text, line);
+        let indentation = text.lines().nth(line.saturating_sub(1)).map_or(0, |l| l.chars().take_while(|c| c.is_whitespace()).count());
+        let length = self.excerpt.as_ref().map_or(0, |e| e.chars().count());
+        self.caret = column.checked_sub(1 + indentation).filter(|before| *before < length);
         self
+    }
+
+    /// The same finding, known by its path only: what it is about stands in no text, or in another one.
+    pub fn without_place(self) -> Self {
+        Self { line: None, column: None, excerpt: None, caret: None, ..self }
     }
 
     /// The same finding with advice.
@@ -136,6 +149,9 @@ impl Finding {
         if let (Some(line), Some(excerpt)) = (self.line, &self.excerpt) {
             write(Part::Frame, &format!("\n{line:>5} | "))?;
             write(Part::Excerpt, excerpt)?;
+            if let Some(column) = self.caret {
+                write(Part::Frame, &format!("\n      | {:column$}^", ""))?;
+            }
         }
         if let Some(hint) = &self.hint {
             write(Part::Frame, "\n   hint: ")?;
@@ -330,7 +346,7 @@ mod tests {
     #[test]
     fn reads_like_a_compiler_message() {
         let text = "error[unknown_key]: unknown key `stifness`\n  --> plant.yaml:2:5 (elements.shock.spring_damper.stifness)\n    \
-                    2 | stifness: 58 kN/m\n   hint: did you mean `stiffness`?";
+                    2 | stifness: 58 kN/m\n      | ^\n   hint: did you mean `stiffness`?";
         assert_eq!(example().to_string(), text);
     }
 

@@ -141,6 +141,7 @@ pub struct AerodynamicsDescription {
     /// Center of pressure, or the reference point of the pitching moment; the link's axes point forward, left and up.
     point: PointDescription,
     /// Drag coefficient times frontal area.
+    #[schemars(extend("plausible" = [0.01, 5.0]))]
     drag_area: NonNegativeQuantity<Area>,
     /// Lift coefficient times frontal area; positive lifts.
     lift_area: Option<Quantity<Area>>,
@@ -149,6 +150,7 @@ pub struct AerodynamicsDescription {
     /// Pitching-moment coefficient times frontal area times reference length; positive raises the nose.
     pitch_volume: Option<Quantity<Volume>>,
     /// Density of the air; 1.225 kg/m³ where left out.
+    #[schemars(extend("plausible" = [0.3, 2.0]))]
     density: Option<PositiveQuantity<Density>>,
     /// First part of the name of the input: `wind`, also where left out, reads `wind.lateral`.
     wind: Option<String>,

@@ -125,6 +125,7 @@ pub struct FrontSprocketDescription {
     /// Center, in the frame of the link.
     at: [Quantity<Length>; 3],
     /// Pitch radius.
+    #[schemars(extend("plausible" = [0.01, 0.3]))]
     radius: PositiveQuantity<Length>,
 }
 
@@ -133,6 +134,7 @@ pub struct FrontSprocketDescription {
 #[serde(deny_unknown_fields)]
 pub struct RearSprocketDescription {
     /// Pitch radius.
+    #[schemars(extend("plausible" = [0.01, 0.3]))]
     radius: PositiveQuantity<Length>,
 }
 

@@ -119,6 +119,7 @@ pub struct EngineDescription {
     /// Torque over throttle and speed.
     map: Option<EngineMapDescription>,
     /// Highest speed of the engine.
+    #[schemars(extend("plausible" = [50.0, 3000.0]))]
     maximum_speed: Option<PositiveQuantity<AngularSpeed>>,
     /// First part of the name of the input: `drive`, also where left out, reads `drive.torque`.
     input: Option<String>,

@@ -78,6 +78,7 @@ pub struct EngineRotorDescription {
     /// Axis of the rotor in the frame of the link, of any length; [0, 1, 0] is a transverse crankshaft.
     axis: [Quantity<Number>; 3],
     /// Inertia about the axis.
+    #[schemars(extend("plausible" = [1e-4, 2.0]))]
     inertia: NonNegativeQuantity<Inertia>,
     /// Speed of the rotor over the spin rate of the wheel; negative for a rotor that turns against the axis.
     ratio: Quantity<Number>,

@@ -25,6 +25,7 @@ use crate::road::footing::QUANTITIES;
 use crate::signal::turning_axis;
 use mbody::assembly::{ElementDescription, Site};
 use mbody::contact::{Contact, Plane, Profile, Surface, TangentPlane};
+use mbody::description::finding::Finding;
 use mbody::description::quantity::dimension::Length;
 use mbody::description::quantity::{NonNegativeQuantity, PositiveQuantity, Quantity};
 use mbody::force::{Declared, Effort, Energy, Evaluated, ForceLaw, InputDeclared, OutputDeclared};
@@ -180,6 +181,9 @@ impl ForceLaw for SingleTrack {
     }
 }
 
+/// Mass of vehicles of this sort with their riders, kg: from a child's bicycle frame to the heaviest sidecar outfit.
+const USUAL_MASS: (f64, f64) = (5.0, 1500.0);
+
 /// A wheel with the shape of its tire.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -187,8 +191,10 @@ pub struct WheelDescription {
     /// Name of the joint of the wheel.
     joint: String,
     /// Radius of the tire.
+    #[schemars(extend("plausible" = [0.05, 1.0]))]
     radius: PositiveQuantity<Length>,
     /// Radius of the cross-section of the tire; zero, a sharp edge, where left out.
+    #[schemars(extend("plausible" = [0.001, 0.3]))]
     crown_radius: Option<NonNegativeQuantity<Length>>,
     /// Name of the road under this wheel, as its tire has it; the level z = 0 where left out.
     road: Option<String>,
@@ -259,6 +265,11 @@ impl Course {
             let message = format!("link `{base_name}` does not move on a vehicle base, so it has no forward speed and no yaw rate");
             site.refuse("base", "wrong_link", message);
             return None;
+        }
+        let mass = site.model().total_mass();
+        if !(USUAL_MASS.0..=USUAL_MASS.1).contains(&mass) {
+            let message = format!("the vehicle has a mass of {mass} kg, {} to {} kg are usual", USUAL_MASS.0, USUAL_MASS.1);
+            site.find("", Finding::warning("suspicious_value", message).with_hint("masses of a URDF are in kg, inertias in kg m²"));
         }
         let steer_axis = turning_axis(site.model(), steer);
         if (site.design_pose(steer).R * steer_axis).z <= 0.0 {

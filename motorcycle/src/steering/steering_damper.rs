@@ -76,6 +76,7 @@ pub struct SteeringDamperDescription {
     /// Name of the steering joint.
     joint: String,
     /// Coefficient of the linear part.
+    #[schemars(extend("plausible" = [1e-2, 200.0]))]
     coefficient: Option<NonNegativeQuantity<AngularDamping>>,
     /// Part that grows with the square of the rate, given by one point of its curve.
     quadratic: Option<QuadraticDescription>,

@@ -25,6 +25,7 @@ pub struct SteeringStopDescription {
     /// Angle at which the stops begin.
     angle: PositiveQuantity<Angle>,
     /// Stiffness of the stops; 5 kN m/rad where left out.
+    #[schemars(extend("plausible" = [50.0, 1e6]))]
     stiffness: Option<PositiveQuantity<AngularStiffness>>,
     /// Angle over which the stiffness builds up; 1 degree where left out.
     width: Option<PositiveQuantity<Angle>>,

@@ -190,12 +190,15 @@ pub struct SwingarmShockDescription {
     /// How the shock is mounted: `direct`, `table` or `linkage`.
     geometry: GeometryDescription,
     /// Spring; the deflection is the compression of the shock from the design pose, the preload acts in the design pose.
+    #[schemars(extend("plausible" = { "stiffness": [500.0, 2e6], "preload": [1.0, 2e5] }))]
     spring: Option<SpringDescription<Sliding>>,
     /// Damper; bump is compression.
+    #[schemars(extend("plausible" = { "coefficient": [10.0, 2e5], "bump": [10.0, 2e5], "rebound": [10.0, 2e5] }))]
     damper: Option<DamperDescription<Sliding>>,
     /// Gas spring.
     air: Option<AirDescription>,
     /// End stops, in terms of the compression.
+    #[schemars(extend("plausible" = { "lower": [1e-4, 1.0], "upper": [1e-4, 1.0], "stiffness": [3e3, 1e8], "width": [1e-4, 0.2] }))]
     stops: Option<StopsDescription<Sliding>>,
     /// Friction of seals and bearings.
     friction: Option<FrictionDescription<Sliding>>,

@@ -22,12 +22,15 @@ pub struct TelescopicForkDescription {
     /// Name of the joint between upper and lower fork; its coordinate is positive in compression.
     joint: String,
     /// Spring; the deflection is the compression, the preload acts at zero compression.
+    #[schemars(extend("plausible" = { "stiffness": [500.0, 2e6], "preload": [1.0, 2e5] }))]
     spring: Option<SpringDescription<Sliding>>,
     /// Damper; bump is compression.
+    #[schemars(extend("plausible" = { "coefficient": [10.0, 2e5], "bump": [10.0, 2e5], "rebound": [10.0, 2e5] }))]
     damper: Option<DamperDescription<Sliding>>,
     /// Air above the oil.
     air: Option<AirDescription>,
     /// Top-out and bottoming, in terms of the compression.
+    #[schemars(extend("plausible" = { "lower": [1e-4, 1.0], "upper": [1e-4, 1.0], "stiffness": [3e3, 1e8], "width": [1e-4, 0.2] }))]
     stops: Option<StopsDescription<Sliding>>,
     /// Friction of seals and bushings.
     friction: Option<FrictionDescription<Sliding>>,

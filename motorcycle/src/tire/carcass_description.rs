@@ -63,6 +63,7 @@ pub struct DeformableDescription {
 #[serde(deny_unknown_fields)]
 pub struct ElasticDescription {
     /// Stiffness.
+    #[schemars(extend("plausible" = [3e3, 5e6]))]
     stiffness: PositiveQuantity<Stiffness>,
     /// Damping; more than nothing, so that a tire in the air comes to rest.
     damping: PositiveQuantity<Damping>,
@@ -79,6 +80,7 @@ impl ElasticDescription {
 #[serde(deny_unknown_fields)]
 pub struct VerticalDescription {
     /// Stiffness.
+    #[schemars(extend("plausible" = [1e4, 5e6]))]
     stiffness: PositiveQuantity<Stiffness>,
     /// Growth of the force with the square of the compression, in N/m²; none where left out.
     stiffness_quadratic: Option<NonNegativeQuantity<Pressure>>,

@@ -34,6 +34,7 @@ pub struct TireDescription {
     /// Name of the wheel joint; its axis points left, and the origin of its child is the center of the wheel.
     wheel: String,
     /// Free radius on the middle plane; that of the property file where left out.
+    #[schemars(extend("plausible" = [0.05, 1.0]))]
     radius: Option<PositiveQuantity<Length>>,
     /// Shape of the cross-section. Left out with a property file: a disc, with the overturning moment of the file.
     crown: Option<CrownDescription>,
@@ -48,6 +49,7 @@ pub struct TireDescription {
     /// Rolling resistance; none where left out.
     rolling_resistance: Option<RollingResistanceDescription>,
     /// Inflation pressure, for the rolling resistance that depends on it.
+    #[schemars(extend("plausible" = [3e4, 1e6]))]
     pressure: Option<PositiveQuantity<Pressure>>,
     /// Share of the compression by which the effective rolling radius is smaller than the free one; 1/3 where left out.
     effective_radius_fraction: Option<Quantity<Number, Fraction>>,
@@ -77,6 +79,7 @@ pub enum CrownDescription {
 #[serde(deny_unknown_fields)]
 pub struct TorusDescription {
     /// Radius of the arc.
+    #[schemars(extend("plausible" = [0.001, 0.3]))]
     radius: PositiveQuantity<Length>,
 }
 
@@ -315,7 +318,7 @@ pub(super) fn wheel(site: &mut Site<'_>, joint: &str, profile: Profile, road: Op
 /// The law of a description.
 fn chosen_law(description: Option<LawDescription>, place: &Place, site: &mut Site<'_>) -> Option<NamedLaw> {
     let mut findings = Findings::new();
-    let named = description?.law(place, site.library(), &mut findings);
+    let named = description?.law(place, &site.library("law"), &mut findings);
     // what has no line is about an entry of the tire
     let (elsewhere, here): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(|f| !f.file.is_empty());
     site.pass_on(elsewhere.into_iter().collect());

@@ -64,7 +64,7 @@ fn every_vehicle_goes() {
     let found = vehicles();
     agreement.holds("sixteen folders or more", found.len() >= 16);
     for name in &found {
-        let checked = fastbike::run_captured(standard_kinds(), &["check", name]);
+        let checked = fastbike::run_captured(standard_kinds(), ["check", name]);
         agreement.holds(&format!("{name}: check: {}{}", checked.stdout, checked.stderr), checked.status == 0 && checked.stderr.is_empty());
         let vehicle = Vehicle::bundled(name);
         let speed = usual_speed(&vehicle);

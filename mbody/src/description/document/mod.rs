@@ -15,7 +15,7 @@ use super::finding::{Finding, Findings, nearest};
 use path::{dotted, step};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A line and a column, counted from one.
 type Place = (usize, usize);
@@ -41,6 +41,8 @@ struct Source {
 pub struct Document {
     value: Value,
     sources: Vec<Source>,
+    /// The source that gives the whole its name.
+    main: usize,
     /// By JSON pointer.
     marks: HashMap<String, Mark>,
 }
@@ -66,7 +68,7 @@ impl Document {
         }
         let value = read(text).map_err(|e| syntax::finding(file, text, &e.0, e.1))?;
         let source = Source { file: file.to_string(), text: text.to_string() };
-        Ok(Self { value, sources: vec![source], marks })
+        Ok(Self { value, sources: vec![source], main: 0, marks })
     }
 
     /// The values.
@@ -76,7 +78,7 @@ impl Document {
 
     /// Name of the text.
     pub fn file(&self) -> &str {
-        &self.sources[0].file
+        &self.sources[self.main].file
     }
 
     /// The entry of a path.
@@ -155,6 +157,11 @@ impl Document {
     /// # Errors
     /// There is nothing under that name, not even around it; the nearest known path is named.
     pub fn set(&mut self, path: &str, text: &str) -> Result<(), Findings> {
+        self.set_as(path, text, format!("{path}={text}"))
+    }
+
+    /// As [`Document::set`], with the name that the change has in messages.
+    pub(super) fn set_as(&mut self, path: &str, text: &str, said: String) -> Result<(), Findings> {
         let pointer = match self.find(path) {
             Some(pointer) => pointer,
             None => {
@@ -167,7 +174,7 @@ impl Document {
             }
         };
         let value = read(text).unwrap_or_else(|_| Value::String(text.to_string()));
-        self.sources.push(Source { file: format!("{path}={text}"), text: String::new() });
+        self.sources.push(Source { file: said, text: String::new() });
         let mark = Mark { source: self.sources.len() - 1, key: None, value: (1, 1) };
         let (around, name) = path::split(&pointer).unwrap_or_default();
         match self.value.pointer_mut(around) {
@@ -189,10 +196,79 @@ impl Document {
         Ok(())
     }
 
-    /// Changes an entry that is there to a number in SI; its place in the text stays that of the old value.
-    pub fn put(&mut self, pointer: &str, value: f64) {
+    /// Changes an entry that is there to another value, a number in SI for instance; its place in the text stays that of the old value.
+    pub fn put(&mut self, pointer: &str, value: impl Into<Value>) {
         if let Some(entry) = self.value.pointer_mut(pointer) {
             *entry = value.into();
+        }
+    }
+
+    /// Takes an entry of the outermost mapping out; its place stays known.
+    pub(super) fn take(&mut self, name: &str) -> Option<Value> {
+        self.value.as_object_mut()?.shift_remove(name)
+    }
+
+    /// Puts the value of an outermost entry under a name of its own below it: `urdf: a` becomes `urdf: { main: a }`.
+    pub(super) fn wrap(&mut self, entry: &str, name: &str) {
+        let pointer = step("", entry);
+        if let Some(value) = self.value.pointer_mut(&pointer) {
+            *value = Value::Object(Map::from_iter([(name.to_owned(), value.take())]));
+            if let Some(mark) = self.marks.get(&pointer) {
+                self.marks.insert(step(&pointer, name), *mark);
+            }
+        }
+    }
+
+    /// Some entries under other pointers, with their places: `(from, to)` each.
+    pub(super) fn picked(&self, moves: &[(String, String)]) -> Self {
+        let mut picked = Self { value: Value::Object(Map::new()), marks: HashMap::new(), ..self.clone() };
+        for (from, to) in moves {
+            let Some(value) = self.value.pointer(from) else { continue };
+            picked.insert(to, value.clone());
+            let moved =
+                |p: &String| p.strip_prefix(from).filter(|rest| rest.is_empty() || rest.starts_with('/')).map(|r| format!("{to}{r}"));
+            picked.marks.extend(self.marks.iter().filter_map(|(p, mark)| Some((moved(p)?, *mark))));
+        }
+        picked
+    }
+
+    /// Puts a value at a pointer, making the mappings around it where they are missing.
+    fn insert(&mut self, pointer: &str, value: Value) {
+        let mut at = &mut self.value;
+        for name in pointer.split('/').skip(1) {
+            if !at.is_object() {
+                *at = Value::Object(Map::new());
+            }
+            let Value::Object(entries) = at else { return };
+            at = entries.entry(path::unescaped(name)).or_insert(Value::Null);
+        }
+        *at = value;
+    }
+
+    /// Puts a value at a pointer, at the place of another entry.
+    pub(super) fn copy(&mut self, from: &str, to: &str) {
+        let Some(value) = self.value.pointer(from).cloned() else { return };
+        self.insert(to, value);
+        if let Some(mark) = self.marks.get(from) {
+            self.marks.insert(to.to_owned(), *mark);
+        }
+    }
+
+    /// JSON pointer to the entry of a path.
+    pub fn pointer_of(&self, path: &str) -> Option<String> {
+        self.find(path)
+    }
+
+    /// Name of the text in which the entry at a JSON pointer, or the nearest one around it, stands.
+    pub fn file_of(&self, pointer: &str) -> &str {
+        let mut at = pointer;
+        loop {
+            match (self.marks.get(at), at.rfind('/')) {
+                // a change from outside stands in no file
+                (Some(mark), _) if !self.sources[mark.source].text.is_empty() => return &self.sources[mark.source].file,
+                (_, Some(end)) => at = &at[..end],
+                (_, None) => return self.file(),
+            }
         }
     }
 
@@ -202,14 +278,18 @@ impl Document {
     }
 
     /// Lays another document over this one: entries are joined, everything else is replaced, `null` removes (RFC 7386).
-    pub fn merge(&mut self, overlay: Self) {
+    ///
+    /// `chosen` are pointers to entries of the overlay that choose one of several kinds: where the kind is another one than here, the
+    /// whole entry is replaced. Together they have the name of the overlay.
+    pub fn merge(&mut self, overlay: Self, chosen: &[String]) {
         let shift = self.sources.len();
         self.sources.extend(overlay.sources);
-        let mut joined = vec![String::new()];
-        join(&mut self.value, overlay.value, "", &mut joined);
+        self.main = shift + overlay.main;
+        let mut joining = Joining { chosen: chosen.iter().map(String::as_str).collect(), joined: HashSet::new() };
+        join(&mut self.value, overlay.value, "", &mut joining);
         // an entry that both have keeps its place, its contents have theirs
         for (pointer, mark) in overlay.marks {
-            if !joined.contains(&pointer) || !self.marks.contains_key(&pointer) {
+            if pointer.is_empty() || !joining.joined.contains(&pointer) || !self.marks.contains_key(&pointer) {
                 self.marks.insert(pointer, Mark { source: mark.source + shift, ..mark });
             }
         }
@@ -227,7 +307,7 @@ impl Document {
         let without =
             |k: usize| dotted(&steps.iter().enumerate().filter(|(j, _)| *j != 0 && *j != k).fold(String::new(), |p, (_, s)| p + "/" + s));
         let tag =
-            (1..steps.len()).find(|k| self.inside_tag(format!("/{}", steps[..*k].join("/"))) == format!("/{}", steps[..=*k].join("/")));
+            (2..steps.len()).find(|k| self.inside_tag(format!("/{}", steps[..*k].join("/"))) == format!("/{}", steps[..=*k].join("/")));
         let shorter = [tag.map(without), Some(without(0))];
         shorter.into_iter().flatten().find(|s| self.find(s).as_deref() == Some(pointer)).unwrap_or_else(|| dotted(pointer))
     }
@@ -273,22 +353,29 @@ fn read(text: &str) -> Result<Value, (String, Option<Place>)> {
     serde_json::to_value(value).map_err(|e| (e.to_string(), None))
 }
 
-fn join(base: &mut Value, overlay: Value, pointer: &str, joined: &mut Vec<String>) {
+/// What is known and found while documents are joined, as JSON pointers.
+struct Joining<'a> {
+    chosen: HashSet<&'a str>,
+    joined: HashSet<String>,
+}
+
+fn join(base: &mut Value, overlay: Value, pointer: &str, joining: &mut Joining<'_>) {
     let Value::Object(changes) = overlay else {
         *base = overlay;
         return;
     };
-    if !base.is_object() {
+    let other_kind = base.as_object().is_some_and(|b| changes.keys().all(|tag| !b.contains_key(tag)));
+    if !base.is_object() || (other_kind && joining.chosen.contains(pointer)) {
         *base = Value::Object(Map::new());
     }
     let Value::Object(entries) = base else { return };
-    joined.push(pointer.to_string());
+    joining.joined.insert(pointer.to_string());
     for (key, change) in changes {
         if change.is_null() {
             entries.shift_remove(&key);
         } else {
             let pointer = step(pointer, &key);
-            join(entries.entry(key).or_insert(Value::Null), change, &pointer, joined);
+            join(entries.entry(key).or_insert(Value::Null), change, &pointer, joining);
         }
     }
 }

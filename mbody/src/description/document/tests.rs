@@ -57,7 +57,7 @@ fn reads_parts_into_types() {
     assert_eq!(document.read::<Vec<[f64; 3]>>("shock.points"), Ok(vec![[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]]));
     let wrong = document.read::<HashMap<String, f64>>("elements.shock.spring_damper").map_err(|f| f.to_string());
     let text = "error[invalid_entry]: invalid type: string \"58 kN/m\", expected f64\n  --> plant.yaml:5:18 \
-                (elements.shock.spring_damper.stiffness)\n    5 | stiffness: 58 kN/m";
+                (elements.shock.spring_damper.stiffness)\n    5 | stiffness: 58 kN/m\n      |            ^";
     assert_eq!(wrong, Err(text.to_string()));
 }
 
@@ -154,7 +154,7 @@ fn overlays_join_replace_and_remove() {
     let mut document = plant();
     let text = "elements:\n  shock: {spring_damper: {stiffness: 70 kN/m, points: null}}\n  new: {bushing: {}}\n";
     match Document::parse("over.yaml", text) {
-        Ok(overlay) => document.merge(overlay),
+        Ok(overlay) => document.merge(overlay, &[]),
         Err(findings) => panic!("{findings}"),
     }
     let expected =

@@ -20,12 +20,12 @@ pub struct Exponents {
 }
 
 impl Exponents {
-    pub(super) const fn of([length, mass, time, angle]: [i8; 4]) -> Self {
+    pub(in crate::description) const fn of([length, mass, time, angle]: [i8; 4]) -> Self {
         Self { length, mass, time, angle }
     }
 
     /// Product with the n-th power of `b`; `None` beyond any sensible unit.
-    pub(super) fn times_power(self, b: Self, n: i8) -> Option<Self> {
+    pub(in crate::description) fn times_power(self, b: Self, n: i8) -> Option<Self> {
         let term = |a: i8, b: i8| a.checked_add(b.checked_mul(n)?);
         Some(Self {
             length: term(self.length, b.length)?,
@@ -77,8 +77,13 @@ impl Dimension {
         ALL.iter().copied().find(|d| d.unit == unit)
     }
 
+    /// The dimension with these exponents; where several have them, the one of general purpose.
+    pub fn of_exponents(exponents: Exponents) -> Option<&'static Self> {
+        ALL.iter().copied().find(|d| d.exponents == exponents)
+    }
+
     /// Whether a value with these exponents may stand for this dimension.
-    pub(super) fn accepts(&self, given: Exponents) -> bool {
+    pub(in crate::description) fn accepts(&self, given: Exponents) -> bool {
         let own = self.exponents;
         let without_angle = Exponents { angle: 0, ..own };
         given == own || (given == without_angle && (own.length != 0 || own.mass != 0))
@@ -93,7 +98,7 @@ impl fmt::Display for Dimension {
 }
 
 /// `a mass (kg)`, or the bare unit for a dimension without a name.
-pub(super) fn describe(exponents: Exponents) -> String {
+pub(in crate::description) fn describe(exponents: Exponents) -> String {
     match ALL.iter().find(|d| d.exponents == exponents) {
         Some(dimension) => dimension.to_string(),
         None => format!("in {exponents}"),

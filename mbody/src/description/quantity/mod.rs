@@ -3,8 +3,8 @@
 mod bound;
 pub mod dimension;
 mod error;
-mod parse;
-mod unit;
+pub(in crate::description) mod parse;
+pub(in crate::description) mod unit;
 
 pub use bound::{Any, AtLeastZero, Bounds, Fraction, Positive, Range};
 pub use dimension::{Dimension, Dimensioned};

@@ -13,7 +13,7 @@ use super::unit::{self, Unit};
 
 /// A number with the unit it was written in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Parsed {
+pub(in crate::description) struct Parsed {
     /// Value in SI.
     pub value: f64,
     /// Exponents of the unit; `None` for a bare number.
@@ -21,7 +21,7 @@ pub(super) struct Parsed {
 }
 
 /// Reads a number with an optional unit.
-pub(super) fn parse(text: &str) -> Result<Parsed, QuantityError> {
+pub(in crate::description) fn parse(text: &str) -> Result<Parsed, QuantityError> {
     let trimmed = text.trim();
     let (number, rest) = split_number(trimmed).ok_or_else(|| QuantityError::NotANumber { text: shown(text) })?;
     let number: f64 = number.replace('−', "-").parse().map_err(|_| QuantityError::NotANumber { text: shown(text) })?;
@@ -41,7 +41,7 @@ pub(super) fn parse(text: &str) -> Result<Parsed, QuantityError> {
 }
 
 /// Splits off the longest number at the front.
-fn split_number(text: &str) -> Option<(&str, &str)> {
+pub(in crate::description) fn split_number(text: &str) -> Option<(&str, &str)> {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let sign = |from: usize| text[from..].chars().next().filter(|c| matches!(c, '+' | '-' | '−')).map_or(0, char::len_utf8);
     let mut end = sign(0);
@@ -203,7 +203,7 @@ impl UnitReader<'_> {
     }
 }
 
-fn is_of_symbol(c: char) -> bool {
+pub(in crate::description) fn is_of_symbol(c: char) -> bool {
     c.is_alphabetic() || c == '°' || c == '%'
 }
 

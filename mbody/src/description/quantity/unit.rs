@@ -132,7 +132,7 @@ const INSTEAD: &[(&str, &str)] = &[
 ];
 
 /// What an unknown unit probably stands for.
-pub(super) fn nearest(symbol: &str) -> Option<&'static str> {
+pub(in crate::description) fn nearest(symbol: &str) -> Option<&'static str> {
     let instead = INSTEAD.iter().find(|(wrong, _)| *wrong == symbol).map(|(_, right)| *right);
     instead.or_else(|| crate::description::finding::nearest(symbol, ALL.iter().map(|u| u.symbol).filter(|s| *s != "1")))
 }

@@ -34,6 +34,12 @@ fn branch(schema: &Value) -> Branch<'_> {
     }
 }
 
+/// Whether a schema offers several kinds, one of which has this tag.
+pub(super) fn is_tag(root: &Value, schema: &Value, key: &str) -> bool {
+    let alternatives = ["oneOf", "anyOf"].iter().filter_map(|word| schema.get(word)?.as_array());
+    alternatives.flatten().any(|s| matches!(branch(resolved(root, s)), Branch::Tagged(tag) if tag == key))
+}
+
 impl Schema {
     /// The mistakes of the branch that was meant.
     pub(super) fn branches(&self, error: &ValidationError, context: &[Vec<ValidationError<'static>>], root: &Value) -> Vec<Mistake> {

@@ -1,5 +1,6 @@
 //! The keyword `quantity`: a text must be a number with a unit of one dimension, within the bounds that stand beside it.
 
+use crate::description::expression::formula;
 use crate::description::quantity::{Bounds, Dimension, QuantityError, parse_quantity};
 use jsonschema::paths::Location;
 use jsonschema::{Keyword, ValidationError};
@@ -24,7 +25,8 @@ pub(super) fn compile<'a>(
 
 /// What is wrong with a text that stands for a quantity. Numbers are left to the standard keywords.
 pub(super) fn judge_text(value: &Value, dimension: &'static Dimension, bounds: &Bounds) -> Option<QuantityError> {
-    let text = value.as_str()?;
+    // a formula has a value only where the parameters have theirs
+    let text = value.as_str().filter(|text| formula(text).is_none())?;
     match parse_quantity(text, dimension) {
         Ok(si) => bounds.violated_by(si, dimension).map(|bound| QuantityError::OutOfRange { text: text.trim().to_string(), bound }),
         Err(error) => Some(error),

@@ -105,6 +105,39 @@ impl Schema {
         found
     }
 
+    /// Pointers to the entries of a value that choose one of several kinds by their only key: `{ spring_damper: … }`.
+    pub fn choices(&self, value: &Value) -> Vec<String> {
+        let mut found = Vec::new();
+        walk::walk(&self.root, value, &mut |met| {
+            let key = met.value.as_object().filter(|o| o.len() == 1).and_then(|o| o.keys().next());
+            if key.is_some_and(|key| branch::is_tag(&self.root, met.schema, key)) && !found.iter().any(|p| p == met.pointer) {
+                found.push(met.pointer.to_owned());
+            }
+            true
+        });
+        found
+    }
+
+    /// Texts that begin with `=` where a number belongs, and what it measures: `None` where any unit will do.
+    pub fn formulas(&self, value: &Value) -> Vec<(String, Option<&'static Dimension>)> {
+        let mut found: Vec<(String, Option<&'static Dimension>)> = Vec::new();
+        walk::walk(&self.root, value, &mut |met| {
+            if !met.value.as_str().is_some_and(|text| text.trim_start().starts_with('=')) {
+                return true;
+            }
+            let plain = (allows(met.schema, "number") || allows(met.schema, "integer")).then(|| match allows(met.schema, "string") {
+                true => None,
+                false => Some(PureNumber::DIMENSION),
+            });
+            let Some(wanted) = message::dimension_of(met.schema).map(Some).or(plain) else { return true };
+            if !found.iter().any(|(pointer, _)| pointer == met.pointer) {
+                found.push((met.pointer.to_owned(), wanted));
+            }
+            false
+        });
+        found
+    }
+
     /// The part of the schema at a pointer.
     fn part(&self, pointer: &str) -> &Value {
         self.root.pointer(pointer).unwrap_or(&Value::Null)

@@ -3,18 +3,36 @@
 use super::entry::{Inertial, JOINT_ENTRIES};
 use super::place::Places;
 use super::skeleton::{Skeleton, SkeletonJoint, TreeOrder};
-use super::{JointKind, Limits, Link, Mimic, Robot, Shape, UrdfJoint, Visual};
+use super::{JointKind, Limits, Link, Mimic, Part, Robot, Shape, UrdfJoint, Visual};
 use crate::description::finding::{Finding, Findings};
 use crate::spatial::{Pose, Vec3};
 use std::sync::Arc;
 use urdf_rs::Geometry;
 
-/// The robot of a text whose grammar and tree have been checked.
-pub(super) fn robot(file: &str, text: &str, skeleton: &Skeleton, order: TreeOrder, places: Places) -> Result<Robot, Findings> {
-    let data = urdf_rs::read_from_string(text).map_err(|e| {
-        let reason: String = e.to_string().chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect();
-        Finding::error("not_urdf", format!("the URDF reader refuses this text: {reason}")).in_file(file)
-    })?;
+/// What `urdf-rs` reads in some texts together; the first one gives the name.
+fn records(texts: &[Part<'_>]) -> Result<urdf_rs::Robot, Findings> {
+    let mut whole: Option<urdf_rs::Robot> = None;
+    for (file, text) in texts {
+        let data = urdf_rs::read_from_string(text).map_err(|e| {
+            let reason: String = e.to_string().chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect();
+            Finding::error("not_urdf", format!("the URDF reader refuses this text: {reason}")).in_file(*file)
+        })?;
+        match &mut whole {
+            None => whole = Some(data),
+            Some(whole) => {
+                whole.links.extend(data.links);
+                whole.joints.extend(data.joints);
+                whole.materials.extend(data.materials);
+            }
+        }
+    }
+    whole.ok_or_else(|| Finding::error("no_links", "there is no `<link>`").into())
+}
+
+/// The robot of texts whose grammar and tree have been checked.
+pub(super) fn robot(texts: &[Part<'_>], skeleton: &Skeleton, order: TreeOrder, places: Places) -> Result<Robot, Findings> {
+    let data = records(texts)?;
+    let file = texts.first().map_or("", |(file, _)| file);
     if data.links.len() != skeleton.links.len() || data.joints.len() != skeleton.joints.len() {
         return Err(Finding::error("not_urdf", "links or joints stand where URDF does not expect them").in_file(file).into());
     }

@@ -1,6 +1,6 @@
 //! Which elements and attributes URDF has, and what stands in them.
 
-use super::place::Places;
+use super::place::{Places, Spot};
 use crate::description::finding::{Finding, Findings, suggestion};
 use roxmltree::{Attribute, Document, Node};
 use std::collections::BTreeMap;
@@ -198,13 +198,13 @@ struct Checker<'a> {
     places: &'a mut Places,
     findings: Findings,
     /// How often an element for other programs occurs, and where first.
-    foreign: BTreeMap<String, (usize, (usize, usize))>,
+    foreign: BTreeMap<String, (usize, Spot)>,
     /// Element and name of what is unknown, how often it occurs, what to say about the first one.
     unknown: Vec<((String, String), usize, Finding)>,
 }
 
 impl Checker<'_> {
-    fn report(&mut self, finding: Finding, path: &str, at: (usize, usize)) {
+    fn report(&mut self, finding: Finding, path: &str, at: Spot) {
         self.findings.push(self.places.at(finding.at_path(path), at));
     }
 
@@ -237,7 +237,7 @@ impl Checker<'_> {
     }
 
     /// Of the same unknown thing in many places, one is reported.
-    fn report_unknown(&mut self, (element, name): (&str, &str), finding: Finding, path: &str, at: (usize, usize)) {
+    fn report_unknown(&mut self, (element, name): (&str, &str), finding: Finding, path: &str, at: Spot) {
         match self.unknown.iter_mut().find(|((e, n), ..)| e == element && n == name) {
             Some((_, times, _)) => *times += 1,
             None => {

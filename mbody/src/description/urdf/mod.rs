@@ -175,18 +175,40 @@ pub struct Mimic {
 /// Gives the robot wherever its tree and its numbers can be read, even where [`Robot::check`] finds numbers that are physically
 /// impossible: ask the findings for errors. Changes are made with [`Robot::set`], and judged by [`Robot::check`].
 pub fn read(file: &str, text: &str) -> (Option<Robot>, Findings) {
-    let document = match place::parse(file, text) {
-        Ok(document) => document,
-        Err(findings) => return (None, findings),
-    };
-    let mut places = Places::new(file, text);
-    let mut findings = grammar::check(&document, &mut places);
-    let skeleton = skeleton::Skeleton::of(&document, &mut places);
+    read_parts(&[(file, text)])
+}
+
+/// Name and text of a part of a tree.
+pub type Part<'a> = (&'a str, &'a str);
+
+/// Reads several texts as one tree: joints of one may name links of another. The first one gives the name; children of a link come in
+/// the order of the texts. Everything else as in [`read`].
+pub fn read_parts(texts: &[Part<'_>]) -> (Option<Robot>, Findings) {
+    let (mut places, mut findings) = (Places::default(), Findings::new());
+    let mut skeleton = skeleton::Skeleton::default();
+    let mut readable = true;
+    for (file, text) in texts {
+        match place::parse(file, text) {
+            Ok(document) => {
+                places.begin(file, text);
+                findings.extend(grammar::check(&document, &mut places));
+                skeleton.add(&document, &mut places);
+            }
+            Err(errors) => {
+                readable = false;
+                findings.extend(errors);
+            }
+        }
+    }
+    // with a part missing, parents would be missed that are there
+    if !readable {
+        return (None, findings.sorted());
+    }
     let order = skeleton.check(&places, &mut findings);
     let Some(order) = order.filter(|_| !findings.has_errors()) else {
         return (None, findings.sorted());
     };
-    let robot = match convert::robot(file, text, &skeleton, order, places) {
+    let robot = match convert::robot(texts, &skeleton, order, places) {
         Ok(robot) => robot,
         Err(refusal) => {
             findings.extend(refusal);

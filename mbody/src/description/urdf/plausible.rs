@@ -11,10 +11,13 @@ use std::collections::HashMap;
 /// Share of the largest principal moment by which rounding may break the inequalities: tables print two or three digits.
 const ROUNDING: f64 = 0.01;
 
+/// Radius of gyration in sizes of the machine from which on it is suspicious.
+const MOST_SIZES: f64 = 10.0;
+
 pub(super) fn check(robot: &Robot) -> Findings {
     let links = robot.links.iter().filter_map(mass);
     let joints = robot.joints.iter().flat_map(|joint| [axis(joint), limits(joint)]).flatten();
-    links.chain(joints).chain(inertia(robot)).chain(massless(robot)).collect()
+    links.chain(joints).chain(inertia(robot)).chain(gyration(robot)).chain(massless(robot)).collect()
 }
 
 fn mass(link: &Link) -> Option<Finding> {
@@ -44,6 +47,30 @@ fn inertia(robot: &Robot) -> Vec<Finding> {
         Some(Finding::new(severity, "impossible_inertia", message).at_path(path).with_hint(hint))
     };
     robot.links.iter().zip(&whole).filter_map(judge).collect()
+}
+
+/// Radii of gyration that no part of a machine of this size has: mostly a unit of inertia or mass that is another one.
+///
+/// The size is the largest distance of a joint or mass center from the frame in which it is given; √(I/m) of a part of the machine is of that
+/// order at most.
+fn gyration(robot: &Robot) -> Vec<Finding> {
+    let of_joints = robot.joints.iter().map(|j| j.origin.p.norm());
+    let size = of_joints.chain(robot.links.iter().filter_map(|l| l.mass).map(|m| m.center.norm())).fold(0.0, f64::max);
+    let judge = |link: &Link| {
+        let own = link.mass.filter(|m| m.mass > 0.0)?;
+        let radius = (rounded_moments(&own)[2] / own.mass).sqrt();
+        if radius <= MOST_SIZES * size {
+            return None;
+        }
+        let message = format!(
+            "link `{}` has inertia as if its {} kg were {radius:.3} m away, in a machine whose parts are {size:.3} m apart",
+            link.name, own.mass
+        );
+        let finding = Finding::warning("suspicious_inertia", message).at_path(format!("link.{}.inertial.inertia", link.name));
+        Some(finding.with_hint("a URDF has kg and kg m²: 1 kg mm² is 1e-6 kg m²"))
+    };
+    // a machine of one point has no size to compare with
+    if size > 0.0 { robot.links.iter().filter_map(judge).collect() } else { Vec::new() }
 }
 
 /// Why no body has these principal moments.

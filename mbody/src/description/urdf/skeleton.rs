@@ -1,13 +1,14 @@
 //! Who carries whom: names, parents and children, before any number is looked at.
 
 use super::JointKind;
-use super::place::Places;
+use super::place::{Places, Spot};
 use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::nearest::names;
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
 
-/// Names of a robot in the order of the text.
+/// Names of a robot in the order of its texts.
+#[derive(Default)]
 pub(super) struct Skeleton {
     pub links: Vec<SkeletonLink>,
     pub joints: Vec<SkeletonJoint>,
@@ -16,7 +17,7 @@ pub(super) struct Skeleton {
 pub(super) struct SkeletonLink {
     pub name: String,
     pub has_inertial: bool,
-    at: (usize, usize),
+    at: Spot,
 }
 
 pub(super) struct SkeletonJoint {
@@ -27,7 +28,7 @@ pub(super) struct SkeletonJoint {
     pub child: String,
     mimic: Option<String>,
     pub has_limit: bool,
-    at: (usize, usize),
+    at: Spot,
 }
 
 /// Links and joints by their number in the text, in tree order: `joints[k]` moves `links[k + 1]`.
@@ -56,15 +57,16 @@ fn text(node: Option<Node>, attribute: &str) -> String {
 }
 
 impl Skeleton {
-    pub fn of(document: &Document, places: &mut Places) -> Self {
+    /// Adds the links and joints of another text.
+    pub fn add(&mut self, document: &Document, places: &mut Places) {
         let elements =
             |name: &'static str| document.root_element().children().filter(move |c| c.is_element() && c.tag_name().name() == name);
-        let links = elements("link").map(|node| SkeletonLink {
-            name: text(Some(node), "name"),
-            has_inertial: child(node, "inertial").is_some(),
-            at: places.of_node(node),
-        });
-        let joints = elements("joint").map(|node| {
+        for node in elements("link") {
+            let (name, at) = (text(Some(node), "name"), places.of_node(node));
+            places.insert(format!("link.{name}"), at);
+            self.links.push(SkeletonLink { name, has_inertial: child(node, "inertial").is_some(), at });
+        }
+        self.joints.extend(elements("joint").map(|node| {
             let type_name = text(Some(node), "type");
             SkeletonJoint {
                 name: text(Some(node), "name"),
@@ -76,12 +78,7 @@ impl Skeleton {
                 has_limit: child(node, "limit").is_some(),
                 at: places.of_node(node),
             }
-        });
-        let skeleton = Self { links: links.collect(), joints: joints.collect() };
-        for link in &skeleton.links {
-            places.insert(format!("link.{}", link.name), link.at);
-        }
-        skeleton
+        }));
     }
 
     /// Reports what is no tree; gives the order of the tree where it is one.
@@ -110,18 +107,18 @@ impl<'a> Checker<'a> {
         let links = self.skeleton.links.iter().map(|l| (&l.name, l.at));
         let joints = self.skeleton.joints.iter().map(|j| (&j.name, j.at));
         for (noun, all) in [("link", links.collect::<Vec<_>>()), ("joint", joints.collect())] {
-            let mut first: HashMap<&str, usize> = HashMap::new();
+            let mut first: HashMap<&str, Spot> = HashMap::new();
             for (name, at) in all {
                 if name.is_empty() {
                     continue;
                 }
-                if let Some(line) = first.get(name.as_str()) {
+                if let Some(before) = first.get(name.as_str()) {
                     let finding = Finding::error("duplicate_name", format!("there are two {noun}s called `{name}`"))
                         .at_path(format!("{noun}.{name}"))
-                        .with_hint(format!("the first one stands on line {line}"));
+                        .with_hint(format!("the first one stands on {}", self.places.words(*before, at)));
                     self.findings.push(self.places.at(finding, at));
                 } else {
-                    first.insert(name, at.0);
+                    first.insert(name, at);
                 }
             }
         }
@@ -197,6 +194,7 @@ impl<'a> Checker<'a> {
                     let message = format!("joint `{}` has {side} link `{link}`, which does not exist", joint.name);
                     let finding = Finding::error("unknown_link", message)
                         .at_path(format!("joint.{}.{side}.link", joint.name))
+                        .with_hint_from(self.looked_in())
                         .with_hint_from(suggestion(link, links.iter().map(|l| l.name.as_str())));
                     self.report(finding);
                 }
@@ -242,7 +240,14 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Where several texts make the tree: which ones.
+    fn looked_in(&self) -> Option<String> {
+        let files = self.places.files();
+        (!files.is_empty()).then(|| format!("looked in {}", names(&files)))
+    }
+
     fn roots(&mut self, carrier: &[Option<usize>]) {
+        let parts = !self.places.files().is_empty();
         let roots: Vec<&str> = self.skeleton.links.iter().zip(carrier).filter(|(_, c)| c.is_none()).map(|(l, _)| l.name.as_str()).collect();
         if roots.is_empty() {
             self.report(Finding::error("no_root", "every link is moved by a joint, none is the root"));
@@ -250,7 +255,8 @@ impl<'a> Checker<'a> {
             let finding =
                 Finding::error("two_roots", format!("{} links are moved by no joint, expected one: {}", roots.len(), names(&roots)))
                     .at_path(format!("link.{}", roots[1]))
-                    .with_hint("connect them by joints; `fixed` ones keep them together");
+                    .with_hint("connect them by joints; `fixed` ones keep them together")
+                    .with_hint_from(parts.then(|| "a joint of one part names the link of another part that carries it".to_owned()));
             self.report(finding);
         }
     }
