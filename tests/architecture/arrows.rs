@@ -16,7 +16,7 @@ const ARROWS: [(&str, &[&str]); 9] = [
     ("fastbike", &["mbody", "motorcycle", "problem", "native", "sundials", "analyses"]),
     ("validation", &["mbody", "motorcycle", "problem", "native", "sundials", "analyses", "fastbike"]),
     // an example of a crate outside
-    ("external_element", &["mbody", "motorcycle", "problem", "fastbike"]),
+    ("external_element", &["mbody", "motorcycle", "problem", "fastbike", "validation"]),
 ];
 /// Outside packages that one package of ours may depend on alone.
 const RESERVED: [(&str, &str); 1] = [("sundials-sys", "sundials")];

@@ -51,9 +51,10 @@ pub fn numbers(suspension: &Suspension) -> Vec<(String, &'static str, f64, &'sta
         ("damping_bump".to_owned(), "N s/m", suspension.damping[0], "reduced damping at a wheel speed of 0.1 m/s"),
         ("damping_rebound".to_owned(), "N s/m", suspension.damping[1], "reduced damping at a wheel speed of -0.1 m/s"),
     ];
-    for (name, spring) in suspension.springs.iter().zip(&suspension.here.springs) {
-        found.push((format!("{name}.motion_ratio"), "-", spring.motion_ratio, "compression of the spring by travel of the wheel"));
-        found.push((format!("{name}.force"), "N", spring.force, "force of the spring"));
+    for ((name, turning), spring) in suspension.springs.iter().zip(&suspension.here.springs) {
+        let (ratio, force) = if *turning { ("rad/m", "N m") } else { ("-", "N") };
+        found.push((format!("{name}.motion_ratio"), ratio, spring.motion_ratio, "compression of the spring by travel of the wheel"));
+        found.push((format!("{name}.force"), force, spring.force, "force of the spring"));
     }
     found
 }
@@ -156,7 +157,7 @@ fn named(quantities: &[Quantity]) -> Value {
 fn of_suspension(suspension: &Suspension) -> Value {
     let mut object: Map<String, Value> = numbers(suspension).into_iter().map(|(name, _, value, _)| (name, json!(value))).collect();
     let of = |value: &dyn Fn(&motorcycle::setup::TravelPoint) -> f64| suspension.curve.iter().map(value).collect::<Vec<f64>>();
-    let springs = suspension.springs.iter().enumerate().map(|(k, name)| {
+    let springs = suspension.springs.iter().enumerate().map(|(k, (name, _))| {
         let spring = json!({
             "compression": of(&|p| p.springs[k].compression), "force": of(&|p| p.springs[k].force),
             "motion_ratio": of(&|p| p.springs[k].motion_ratio),
@@ -217,8 +218,9 @@ pub(super) fn write_csv(report: &SetupReport, _: &Options, out: &mut dyn io::Wri
             let travel = csv::cell(point.travel);
             table.write_record([suspension.axle, "load", &travel, "N", &csv::cell(point.force)])?;
             table.write_record([suspension.axle, "wheel_rate", &travel, "N/m", &csv::cell(point.wheel_rate)])?;
-            for (name, spring) in suspension.springs.iter().zip(&point.springs) {
-                table.write_record([suspension.axle, &format!("{name}.motion_ratio"), &travel, "-", &csv::cell(spring.motion_ratio)])?;
+            for ((name, turning), spring) in suspension.springs.iter().zip(&point.springs) {
+                let unit = if *turning { "rad/m" } else { "-" };
+                table.write_record([suspension.axle, &format!("{name}.motion_ratio"), &travel, unit, &csv::cell(spring.motion_ratio)])?;
             }
         }
     }

@@ -11,21 +11,19 @@
 //! | z_w, s | m | height of a wheel center along the middle plane of the chassis; travel, positive in bump, the same for all wheels |
 //! | F_w | N | force of the jack under a wheel, upward |
 //!
-//! Nothing moves, so dampers are silent; the vehicle is lifted, so tires are too. The weight of wheel and suspension is carried by the jack, as
+//! Nothing moves, so dampers are silent; the jack carries what the road did, so tires are silent too. The weight of wheel and suspension is carried by the jack, as
 //! it is by the road. Any mechanism has this equilibrium: fork, arm, linkage, loops, rubber bushings.
 //!
 //! Source: virtual work. Range: springs whose force does not depend on the road; loops that are independent.
 
 use super::parts::{Parts, Wheel};
 use mbody::algorithm::jacobian::jacobian;
-use mbody::dynamics::{System, TreePlant};
-use mbody::model::BodyIndex;
+use mbody::dynamics::{Element, System, TreePlant};
+use mbody::model::{BodyIndex, Outline};
 use mbody::spatial::{Pose, Twist, Vec3};
 use problem::{AlgebraicMethod, AlgebraicOptions, AlgebraicProblem, At, Dae, EvalError, Matrix, Outputs, UnknownKind};
 use std::sync::Arc;
 
-/// Height to which the vehicle is lifted, m: no tire reaches the road.
-const LIFT: f64 = 2.0;
 /// Step of the differences from which the Jacobian comes, in units of each unknown.
 const DIFFERENCE: f64 = 1e-6;
 /// Scaled residual of an equilibrium.
@@ -151,7 +149,7 @@ pub(super) struct Stand<'m> {
 }
 
 impl<'m> Stand<'m> {
-    /// Lifts a vehicle in a pose; `None` where no joint lets these wheels move against the chassis.
+    /// Holds the chassis of a vehicle in a pose; `None` where no joint lets these wheels move against the chassis.
     pub fn new(system: &Arc<System>, parts: &Parts, wheels: &[Wheel], pose: &[f64], method: &'m mut dyn AlgebraicMethod) -> Option<Self> {
         let model = system.model();
         let mut y: Vec<f64> = system.unknowns().iter().map(|u| u.design).collect();
@@ -160,7 +158,6 @@ impl<'m> Stand<'m> {
         for (value, unknown) in y.iter_mut().zip(system.unknowns()) {
             match unknown.kind {
                 UnknownKind::Velocity | UnknownKind::Algebraic => *value = 0.0,
-                UnknownKind::Position if unknown.signal.name == format!("{}.heave", model.body(parts.base).joint_name) => *value += LIFT,
                 UnknownKind::Position | UnknownKind::State => {}
             }
         }
@@ -168,7 +165,8 @@ impl<'m> Stand<'m> {
         if coordinates.is_empty() {
             return None;
         }
-        let mut plant = TreePlant::new(system.clone());
+        let tire = |element: &Element| element.force.outlines(model).iter().any(|o| matches!(o, Outline::Round { .. }));
+        let mut plant = TreePlant::without(system.clone(), tire);
         let u: Vec<f64> = system.inputs().iter().map(|i| i.default).collect();
         let yd = vec![0.0; y.len()];
         let poses = plant.evaluate_at(At { time: 0.0, y: &y, yd: &yd, u: &u }).tree.world.X_WB.clone();
@@ -198,7 +196,22 @@ impl<'m> Stand<'m> {
             u,
             plant,
         };
-        Some(Self { jack, method, level })
+        let mut stand = Self { jack, method, level };
+        stand.moves().then_some(stand)
+    }
+
+    /// Whether any coordinate moves a wheel along the middle plane: flexible parts that only twist do not.
+    fn moves(&mut self) -> bool {
+        let jack = &mut self.jack;
+        let mut f = vec![0.0; jack.size()];
+        let at: Vec<f64> = jack.coordinates.iter().map(|c| jack.y[c.0]).chain(vec![0.0; f.len() - jack.coordinates.len()]).collect();
+        let level = jack.wheels.len();
+        (0..jack.coordinates.len()).any(|k| {
+            let mut moved = at.clone();
+            moved[k] += DIFFERENCE;
+            let heights = |f: &[f64]| f[f.len() - level..].iter().map(|h| h.abs()).sum::<f64>();
+            jack.write(&moved, &mut f).is_ok() && heights(&f) > 1e-3 * DIFFERENCE
+        })
     }
 
     /// The equilibrium at a travel from the given pose, m, from a neighbor where there is one; `None` where none is found.

@@ -42,9 +42,9 @@ const WHEEL_SPEED: f64 = 0.1;
 /// A spring of an axle at one travel.
 #[derive(Clone, Copy, Debug)]
 pub struct SpringAt {
-    /// Compression, m, as the element counts it.
+    /// Compression, m (rad), as the element counts it.
     pub compression: f64,
-    /// Force, N, positive when it pushes.
+    /// Force, N (N m), positive when it pushes.
     pub force: f64,
     /// Compression by travel of the wheel.
     pub motion_ratio: f64,
@@ -68,8 +68,8 @@ pub struct TravelPoint {
 pub struct Suspension {
     /// `front`, `rear` or `side`.
     pub axle: &'static str,
-    /// Names of the springs.
-    pub springs: Vec<String>,
+    /// Names of the springs, and whether they are torsion springs: their compression is an angle and their force a torque.
+    pub springs: Vec<(String, bool)>,
     /// The given pose; its travel is the sag.
     pub here: TravelPoint,
     /// Reduced damping in bump and rebound at a wheel speed of 0.1 m/s, N s/m.
@@ -104,10 +104,11 @@ impl Motion {
     }
 }
 
-/// A spring along a line, with its place among the signals.
+/// A spring along a line or about an axis, with its place among the signals.
 struct Spring<'s> {
     name: &'s str,
     law: &'s SpringDamperLaw,
+    turning: bool,
     /// Its force among the outputs.
     force: usize,
     compression: Place,
@@ -124,17 +125,18 @@ impl<'s> Spring<'s> {
     fn of(system: &System, element: &'s Element) -> Option<Self> {
         let (name, force) = (element.force.name(), element.outputs.start);
         // outputs of both: force, length, compression
-        let along = |law: &'s SpringDamperLaw| Self { name, law, force, compression: Place::Output(force + 2) };
+        let along = |law: &'s SpringDamperLaw| Self { name, law, turning: false, force, compression: Place::Output(force + 2) };
         if let Some(shock) = element.force.law::<SwingarmShock>() {
             return Some(along(&shock.law));
         }
         if let Some(spring) = element.force.law::<SpringDamper>() {
             return Some(along(&spring.law));
         }
-        let spring = element.force.law::<JointSpring>().filter(|s| s.effort == JointEffortUnit::Force)?;
+        let spring = element.force.law::<JointSpring>()?;
         let q = system.model().body(spring.joint).q.start;
         let place = system.model().layout().independent_q.iter().position(|&i| i == q)?;
-        Some(Self { name, law: &spring.law, force, compression: Place::Unknown(place) })
+        let turning = spring.effort == JointEffortUnit::Torque;
+        Some(Self { name, law: &spring.law, turning, force, compression: Place::Unknown(place) })
     }
 
     fn compression(&self, at: &Posture) -> f64 {
@@ -191,6 +193,18 @@ impl Travel<'_> {
         Some(above)
     }
 
+    /// Travel between two at which a stop of the bump is used up.
+    fn stop(&mut self, mut free: f64, mut stopped: f64, near: &Posture) -> f64 {
+        while stopped - free > 1e-7 {
+            let middle = 0.5 * (free + stopped);
+            match self.stand.at(middle, Some(near)) {
+                Some(found) if !self.stopped(&found, Side::Above) => free = middle,
+                _ => stopped = middle,
+            }
+        }
+        stopped
+    }
+
     /// Full extension: downward from the given pose until the jack carries nothing, or the stop of the rebound is used up.
     fn extension(&mut self, here: &Posture) -> Option<(f64, Posture)> {
         let mut above = (0.0, here.clone());
@@ -236,7 +250,7 @@ pub(super) fn suspension<'a>(
         let Some((posture, point, _)) = travel.point(at, Some(&near)) else { break };
         let (loaded, ended) = (point.force > MOST_LOAD * here.force.max(1.0), travel.stopped(&posture, Side::Above));
         if ended && at > 0.0 {
-            stop = Some(at - lowest);
+            stop = Some(travel.stop(at - STEP, at, &near) - lowest);
         }
         curve.push(point);
         near = posture;
@@ -259,7 +273,7 @@ pub(super) fn suspension<'a>(
     });
     Ok(Suspension {
         axle,
-        springs: own.iter().map(|&k| travel.springs[k].name.to_owned()).collect(),
+        springs: own.iter().map(|&k| (travel.springs[k].name.to_owned(), travel.springs[k].turning)).collect(),
         here: from_extension(here),
         damping,
         stop,

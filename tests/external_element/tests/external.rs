@@ -97,7 +97,7 @@ fn the_vehicle_is_differentiable_and_keeps_its_energy() {
             assert!((found - exact).abs() < 1e-5 * largest, "row {i} along `{}`: {exact} {found}", system.unknowns()[k].signal.name);
         }
     }
-    let damper = system.outputs().iter().position(|o| o.name == "steering_damper.torque").expect("the damper");
+    let damper = system.outputs().iter().position(|o| o.name == "magnet_damper.torque").expect("the damper");
     assert!((z[damper] - 2.0 * 20.8 * (2.0 / 6.0) / (1.0 + 1.0 / 9.0)).abs() < 1e-9);
 }
 
@@ -128,17 +128,15 @@ fn the_vehicle_turns_and_its_damper_calms_the_wobble() {
         let named = modes.iter().find(|m| m["name"] == "wobble").unwrap_or_else(|| panic!("no wobble: {modes:?}"));
         number(&named["damping_ratio"])
     };
-    let (strong, weak) = (wobble(&[]), wobble(&["--set", "steering_damper.torque=2 N m"]));
+    let (strong, weak) = (wobble(&[]), wobble(&["--set", "magnet_damper.torque=2 N m"]));
     assert!(strong > weak + 0.05, "{strong} {weak}");
 }
 
 #[test]
 fn mistakes_are_told() {
-    for (set, expected) in [
-        ("steering_damper.torqe=3 N m", "torque"),
-        ("steering_damper.rate=3 N m", "rad/s"),
-        ("rear_tire.law.brush.friction=-1", "friction"),
-    ] {
+    for (set, expected) in
+        [("magnet_damper.torqe=3 N m", "torque"), ("magnet_damper.rate=3 N m", "rad/s"), ("rear_tire.law.brush.friction=-1", "friction")]
+    {
         let answer = run_captured(kinds(), ["check", MODEL, "--set", set]);
         let said = format!("{}{}", answer.stdout, answer.stderr);
         assert!(answer.status == 2 && said.contains(expected), "{set}: {said}");
