@@ -73,8 +73,9 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let Some(backend) = backend::algebraic(&arguments.trim.backend) else {
         return Err(Failure::Argument(format!("there is no backend `{}`", arguments.trim.backend)));
     };
-    let setup = motorcycle::setup::setup(&loaded.assembled, &point.values, (backend.make)().as_mut())
-        .map_err(|because| Finding::error("no_vehicle_base", because).with_hint("`fastbike info MODEL` shows what the model consists of"))?;
+    let setup = motorcycle::setup::setup(&loaded.assembled, &point.values, (backend.make)().as_mut()).map_err(|because| {
+        Finding::error("no_vehicle_base", because).with_hint("`fastbike info MODEL` shows what the model consists of")
+    })?;
     let told = |name: &str| name.ends_with("_tire.normal_force") || name.ends_with("_tension") || name == "drive.torque";
     let forces = steady.signals.iter().zip(&point.values).filter(|(s, v)| told(&s.name) && v.is_finite());
     let mut warnings = steady.warnings.clone();

@@ -125,7 +125,8 @@ fn components(components: &[Component], options: &Options, out: &mut dyn io::Wri
             "  center from the rear contact, forward and up; share of the inertia about the mass center of the whole"
         )
     )?;
-    let columns: [(&str, fn(&Component) -> f64); 6] = [
+    type Column = (&'static str, fn(&Component) -> f64);
+    let columns: [Column; 6] = [
         ("kg", |c| c.mass.mass),
         ("forward m", |c| c.mass.center.x),
         ("up m", |c| c.mass.center.z),

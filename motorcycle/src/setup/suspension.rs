@@ -205,6 +205,24 @@ impl Travel<'_> {
         stopped
     }
 
+    /// Points from full extension until a stop of the bump is used up or the load is many times that of the given pose, and the travel of that stop.
+    fn curve(&mut self, (lowest, extended): (f64, Posture), load: f64) -> (Vec<TravelPoint>, Option<f64>) {
+        let (mut points, mut at, mut near) = (Vec::new(), lowest, extended);
+        while let Some((posture, point, _)) = self.point(at, Some(&near)) {
+            let loaded = point.force > MOST_LOAD * load.max(1.0);
+            points.push(point);
+            near = posture;
+            if at > 0.0 && self.stopped(&near, Side::Above) {
+                return (points, Some(self.stop(at - STEP, at, &near) - lowest));
+            }
+            if loaded || at - lowest > 2.0 * LONGEST {
+                break;
+            }
+            at += STEP;
+        }
+        (points, None)
+    }
+
     /// Full extension: downward from the given pose until the jack carries nothing, or the stop of the rebound is used up.
     fn extension(&mut self, here: &Posture) -> Option<(f64, Posture)> {
         let mut above = (0.0, here.clone());
@@ -244,21 +262,7 @@ pub(super) fn suspension<'a>(
         return Err("nothing springs between wheel and chassis".to_owned());
     }
     let (lowest, extended) = travel.extension(&posture).ok_or_else(|| "the wheel does not hang at any travel".to_owned())?;
-    let (mut curve, mut stop) = (Vec::new(), None);
-    let (mut at, mut near) = (lowest, extended);
-    loop {
-        let Some((posture, point, _)) = travel.point(at, Some(&near)) else { break };
-        let (loaded, ended) = (point.force > MOST_LOAD * here.force.max(1.0), travel.stopped(&posture, Side::Above));
-        if ended && at > 0.0 {
-            stop = Some(travel.stop(at - STEP, at, &near) - lowest);
-        }
-        curve.push(point);
-        near = posture;
-        if loaded || stop.is_some() || at - lowest > 2.0 * LONGEST {
-            break;
-        }
-        at += STEP;
-    }
+    let (curve, stop) = travel.curve((lowest, extended), here.force);
     let from_extension = |mut point: TravelPoint| {
         point.travel -= lowest;
         point.springs = own.iter().map(|&k| point.springs[k]).collect();
