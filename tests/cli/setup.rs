@@ -37,6 +37,14 @@ fn the_pose_is_a_steady_state() {
     assert!(sag(&report) < sag(&still) - 5e-3, "{} {}", sag(&report), sag(&still));
 }
 
+/// In a turn the fork keeps its rake, and what belongs to straight running is left out.
+#[test]
+fn a_turn_has_no_squat() {
+    let report = json(&["setup", "gsxr1000", "--speed", "30", "--lean", "40deg", "--format", "json"], 0);
+    assert!((number(&report["geometry"]["rake"]) - 0.4189).abs() < 0.02, "{}", report["geometry"]);
+    assert!(report["pull"]["squat_angle"].is_null() && report["left_out"].to_string().contains("straight running"));
+}
+
 #[test]
 fn figures_are_drawn() {
     let folder = folder("setup");

@@ -83,6 +83,7 @@ fn the_jack_carries_what_the_road_carries() {
     for (model, axles) in [
         ("gsxr1000", &[("front", "front_tire"), ("rear", "rear_tire")][..]),
         ("telelever", &[("front", "front_tire"), ("rear", "rear_tire")]),
+        ("duolever", &[("front", "front_tire"), ("rear", "rear_tire")]),
         ("scooter", &[("front", "front_tire"), ("rear", "rear_tire")]),
         ("sidecar", &[("front", "front_tire"), ("rear", "rear_tire"), ("side", "side_tire")]),
         ("tilting_three_wheeler", &[("rear", "rear_tire")]),

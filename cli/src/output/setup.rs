@@ -44,7 +44,7 @@ impl Results for SetupReport {
 /// Numbers of a suspension: name, unit, value, sentence.
 pub fn numbers(suspension: &Suspension) -> Vec<(String, &'static str, f64, &'static str)> {
     let mut found = vec![
-        ("sag".to_owned(), "m", suspension.here.travel, "travel of the wheel from full extension"),
+        ("sag".to_owned(), "m", suspension.sag.unwrap_or(f64::NAN), "travel of the wheel from full extension"),
         ("travel".to_owned(), "m", suspension.stop.unwrap_or(f64::NAN), "from full extension to the stop of the bump"),
         ("load".to_owned(), "N", suspension.here.force, "load that the suspension carries at this travel, with wheel and arm"),
         ("wheel_rate".to_owned(), "N/m", suspension.here.wheel_rate, "load by travel (reduced stiffness)"),

@@ -1,13 +1,14 @@
 //! Geometry of a vehicle in a pose: rake, trails, wheelbase.
 //!
 //! ```text
-//! ε = atan2(−s·x, s·z)     a = (G − P_f)·x_f     a_n = ((P_f − O) × s)·n_f     d = ((C_f − O) × s)·(−n_f)     p = |P_f − P_r|
+//! ε = atan2(−s·x, s·u)     a = (G − P_f)·x_f     a_n = ((P_f − O) × s)·n_f     d = ((C_f − O) × s)·(−n_f)     p = |P_f − P_r|
 //! a_n = a cos ε and d = R sin ε − a_n for an upright vehicle whose tire is a disc of radius R
 //! ```
 //!
 //! | symbol | unit | |
 //! |---|---|---|
-//! | ε | rad | rake (caster angle): inclination of the steering axis, positive when its upper end is behind |
+//! | ε | rad | rake (caster angle): inclination of the steering axis in the middle plane of the chassis, positive when its upper end is behind |
+//! | x, u | | forward along the heading, upward in the middle plane |
 //! | a, a_n | m | trail on the road, positive where the axis meets the road ahead of the contact; normal (mechanical) trail |
 //! | d | m | offset of the front axle from the steering axis, positive ahead of it |
 //! | p, b | m | wheelbase; width of the track |
@@ -30,18 +31,16 @@ pub(super) fn geometry(parts: &Parts, poses: &[Pose<f64>]) -> Vec<Quantity> {
     if let Some((body, axis)) = parts.steer {
         let X = &poses[body.get()];
         let s = X.R * axis;
-        let inward = heading.R.inverse_times(s);
+        // upward in the middle plane of the chassis, which leans
+        let side = poses[parts.base.get()].R.columns[1];
+        let up = (Vec3::new(0.0, 0.0, 1.0) - side.scaled(side.z)).normalized().unwrap_or(Vec3::new(0.0, 0.0, 1.0));
+        let rake = (-s.dot(heading.R.columns[0])).atan2(s.dot(up));
         let forward = mean(contacts.iter().map(|c| c.frame.x)).normalized().unwrap_or(Vec3::new(1.0, 0.0, 0.0));
         let left = mean(parts.front.iter().map(|w| poses[w.body.get()].R * w.axis)).normalized().unwrap_or(Vec3::new(0.0, 1.0, 0.0));
         let on_road = X.p - s.scaled(X.p.z / s.z);
         let center = mean(parts.front.iter().map(|w| w.center(poses)));
         found.extend([
-            Quantity::new(
-                "rake",
-                "rad",
-                (-inward.x).atan2(inward.z),
-                "inclination of the steering axis against the vertical, positive backward",
-            ),
+            Quantity::new("rake", "rad", rake, "inclination of the steering axis in the middle plane, positive backward"),
             Quantity::new(
                 "trail",
                 "m",

@@ -29,6 +29,9 @@ use mbody::spatial::MassProperties;
 use mbody::stage::Workspace;
 use problem::AlgebraicMethod;
 
+/// Sine of the lean up to which a vehicle counts as upright.
+const UPRIGHT: f64 = 0.02;
+
 /// A number of the setup.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
@@ -111,6 +114,7 @@ pub fn setup(assembled: &Assembled, pose: &[f64], method: &mut dyn AlgebraicMeth
     let mass = mass::quantities(&parts, &whole, model.gravity().norm(), &poses);
     let front = parts.heading(&poses).inverse().point(parts::mean(parts.front.iter().map(|w| w.contact(&poses).point)));
     let transfer = whole.center.z / front.x;
+    let leaning = poses[parts.base.get()].R.columns[1].z.abs() > UPRIGHT;
     let (mut suspensions, mut pull, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
     let mut lines = None;
     for (axle, wheels) in [("front", &parts.front), ("rear", &parts.rear), ("side", &parts.side)] {
@@ -129,7 +133,12 @@ pub fn setup(assembled: &Assembled, pose: &[f64], method: &mut dyn AlgebraicMeth
                 continue;
             }
         };
+        if found.sag.is_none() {
+            let because = "no equilibrium was found between this pose and a wheel that hangs; travel counts from the lowest one";
+            left_out.push(("sag", format!("{axle}: {because}")));
+        }
         let of_axle = match axle {
+            "front" | "rear" if leaning => Err("they are defined in straight running, and the vehicle leans".to_owned()),
             "rear" => pull::squat((system, &parts), &found, &poses, transfer).map(|(quantities, squat)| {
                 lines = Some(squat);
                 quantities

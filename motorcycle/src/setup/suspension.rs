@@ -53,7 +53,7 @@ pub struct SpringAt {
 /// A point of the curves of a suspension.
 #[derive(Clone, Debug)]
 pub struct TravelPoint {
-    /// Travel from full extension, m, positive in bump.
+    /// Travel from full extension, or from the lowest travel that was found, m, positive in bump.
     pub travel: f64,
     /// Force under all wheels of the axle, N.
     pub force: f64,
@@ -70,7 +70,9 @@ pub struct Suspension {
     pub axle: &'static str,
     /// Names of the springs, and whether they are torsion springs: their compression is an angle and their force a torque.
     pub springs: Vec<(String, bool)>,
-    /// The given pose; its travel is the sag.
+    /// Sag, m: travel of the given pose from full extension; none where the way there was not found.
+    pub sag: Option<f64>,
+    /// The given pose; its travel counts as that of the curve.
     pub here: TravelPoint,
     /// Reduced damping in bump and rebound at a wheel speed of 0.1 m/s, N s/m.
     pub damping: [f64; 2],
@@ -224,17 +226,23 @@ impl Travel<'_> {
     }
 
     /// Full extension: downward from the given pose until the jack carries nothing, or the stop of the rebound is used up.
-    fn extension(&mut self, here: &Posture) -> Option<(f64, Posture)> {
+    /// Where the way ends before, the lowest travel that was found and `false`.
+    fn extension(&mut self, here: &Posture) -> ((f64, Posture), bool) {
         let mut above = (0.0, here.clone());
         while above.0 > -LONGEST {
             let below = above.0 - STEP;
             match self.stand.at(below, Some(&above.1)) {
                 Some(found) if found.force > 0.0 => above = (below, found),
-                Some(_) => return self.hanging(above, below),
-                None => return None,
+                Some(_) => {
+                    return match self.hanging(above.clone(), below) {
+                        Some(found) => (found, true),
+                        None => (above, false),
+                    };
+                }
+                None => break,
             }
         }
-        None
+        (above, false)
     }
 }
 
@@ -261,7 +269,7 @@ pub(super) fn suspension<'a>(
     if own.is_empty() && here.wheel_rate.abs() < 1.0 {
         return Err("nothing springs between wheel and chassis".to_owned());
     }
-    let (lowest, extended) = travel.extension(&posture).ok_or_else(|| "the wheel does not hang at any travel".to_owned())?;
+    let ((lowest, extended), hangs) = travel.extension(&posture);
     let (curve, stop) = travel.curve((lowest, extended), here.force);
     let from_extension = |mut point: TravelPoint| {
         point.travel -= lowest;
@@ -278,6 +286,7 @@ pub(super) fn suspension<'a>(
     Ok(Suspension {
         axle,
         springs: own.iter().map(|&k| (travel.springs[k].name.to_owned(), travel.springs[k].turning)).collect(),
+        sag: hangs.then_some(-lowest),
         here: from_extension(here),
         damping,
         stop,
