@@ -14,6 +14,7 @@ pub mod maneuver;
 mod planar;
 pub mod rider;
 pub mod road;
+pub mod setup;
 mod signal;
 pub mod steering;
 pub mod suspension;

@@ -6,7 +6,7 @@ use std::process::Command;
 use std::{env, fs};
 
 /// The packages of the workspace, and for each the packages of the workspace that it may depend on.
-const ARROWS: [(&str, &[&str]); 8] = [
+const ARROWS: [(&str, &[&str]); 9] = [
     ("problem", &[]),
     ("mbody", &["problem"]),
     ("motorcycle", &["mbody", "problem"]),
@@ -15,6 +15,8 @@ const ARROWS: [(&str, &[&str]); 8] = [
     ("analyses", &["problem"]),
     ("fastbike", &["mbody", "motorcycle", "problem", "native", "sundials", "analyses"]),
     ("validation", &["mbody", "motorcycle", "problem", "native", "sundials", "analyses", "fastbike"]),
+    // an example of a crate outside
+    ("external_element", &["mbody", "motorcycle", "problem", "fastbike", "validation"]),
 ];
 /// Outside packages that one package of ours may depend on alone.
 const RESERVED: [(&str, &str); 1] = [("sundials-sys", "sundials")];

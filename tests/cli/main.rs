@@ -19,6 +19,7 @@ mod replay;
 mod rider;
 mod run;
 mod schema;
+mod setup;
 mod slalom;
 mod tire;
 mod trim;

@@ -3,6 +3,7 @@
 //! - [`reference`](mod@reference): published numbers as files;
 //! - [`agreement`]: comparisons whose tolerances have reasons, and the worst deviation of each;
 //! - [`course`]: motions over time, their energies and the drift of their constraints;
+//! - [`guide`]: guides whose commands are run and whose quotes are compared;
 //! - [`instant`]: a model at one instant, with constraints, accelerations and forces;
 //! - [`rode`]: maneuvers that the virtual rider rode;
 //! - [`tree`]: the tree of a model alone, in a motion given by signal names;
@@ -14,6 +15,7 @@
 pub mod agreement;
 pub mod course;
 pub mod evidence;
+pub mod guide;
 pub mod instant;
 pub mod reference;
 pub mod rode;

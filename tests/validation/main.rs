@@ -16,6 +16,7 @@ mod responses;
 mod rides;
 mod rolling_disc;
 mod sel04;
+mod setup;
 mod sharp1971;
 mod tire_property_files;
 mod topologies;
@@ -40,6 +41,7 @@ fn the_table_of_evidence_is_up_to_date() {
             &trends::EVIDENCE,
             &tire_property_files::EVIDENCE,
             &rides::EVIDENCE,
+            &setup::EVIDENCE,
         ])
         .chain(topologies::EVIDENCE)
         .copied()

@@ -15,6 +15,7 @@ mod new;
 mod rider;
 mod run;
 mod schema;
+mod setup;
 mod slalom;
 mod tire;
 mod trim;
@@ -46,6 +47,7 @@ pub const KINDS: &[Kind] = &[
     run::KIND,
     compare::KIND,
     tire::KIND,
+    setup::KIND,
     info::KIND,
     check::KIND,
     dynamics::KIND,

@@ -66,6 +66,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("no_rider", "No rider could be designed for this vehicle or at this speed."),
     ("no_root", "Every link of the URDF is moved by a joint; one has to be the root."),
     ("no_steady_state", "No steady state was found to start from."),
+    ("no_suspension", "No axle is sprung, so that there is nothing to draw over its travel."),
     ("no_sweep", "The figure or command needs a sweep of several values."),
     ("no_vehicle_base", "The command is for vehicles: their base is `vehicle_base`."),
     ("not_a_number", "What stands here is no number."),

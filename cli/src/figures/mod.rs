@@ -2,6 +2,7 @@
 
 pub mod modes;
 pub mod ride;
+pub mod setup;
 pub mod tire;
 
 use crate::output::Angles;

@@ -6,7 +6,7 @@
 //! models one for every entry that is not zero, frequency responses one for every frequency. With `--versus`, a first column `variant` tells the rows apart.
 
 use super::report::{Beside, Report};
-use super::{Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, tire};
+use super::{Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, setup, tire};
 use std::io;
 
 pub(super) const KIND: Kind = Kind {
@@ -16,6 +16,7 @@ pub(super) const KIND: Kind = Kind {
     write_history: history::csv::write,
     write_comparison: comparison::write_csv,
     write_tire: tire::write_csv,
+    write_setup: setup::write_csv,
 };
 
 fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {

@@ -3,7 +3,7 @@
 //! A value that is not finite is `null`; `signals` is empty where nothing was computed.
 
 use super::report::{Beside, Point, Report};
-use super::{Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, tire};
+use super::{Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, setup, tire};
 use problem::Ending;
 use serde_json::{Map, Value, json};
 use std::io;
@@ -15,6 +15,7 @@ pub(super) const KIND: Kind = Kind {
     write_history: history::json::write,
     write_comparison: comparison::write_json,
     write_tire: tire::write_json,
+    write_setup: setup::write_json,
 };
 
 fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {

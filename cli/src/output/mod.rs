@@ -25,6 +25,7 @@ pub mod responses;
 pub mod rider;
 #[cfg(test)]
 mod sample;
+pub mod setup;
 mod table;
 pub mod tire;
 mod units;
@@ -54,6 +55,8 @@ pub struct Kind {
     pub write_comparison: Writer<comparison::Comparison>,
     /// Writes the curves of a tire.
     pub write_tire: Writer<tire::TireCurves>,
+    /// Writes the setup of a vehicle.
+    pub write_setup: Writer<setup::SetupReport>,
 }
 
 /// Writes a result in one format.

@@ -4,7 +4,7 @@ use super::axes::{self, Axes};
 use super::number::{aligned, number};
 use super::palette::{Palette, styled};
 use super::report::{Beside, Point, Report};
-use super::{Angles, Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, tire, versus};
+use super::{Angles, Kind, Options, comfort, comparison, handling, history, linear, modes, responses, rider, setup, tire, versus};
 use problem::Ending;
 use std::io;
 
@@ -15,6 +15,7 @@ pub(super) const KIND: Kind = Kind {
     write_history: history::table::write,
     write_comparison: comparison::write_table,
     write_tire: tire::write_table,
+    write_setup: setup::write_table,
 };
 
 /// What a table of several points shows of the signals that exist, where the user does not choose.
@@ -62,6 +63,11 @@ fn write(report: &Report, options: &Options, out: &mut dyn io::Write) -> io::Res
 pub(super) fn quantity(value: f64, unit: &str, angles: Angles) -> String {
     let shown = angles.show(unit);
     format!("{} {}", number(value * shown.factor), shown.unit).trim_end().to_owned()
+}
+
+/// `speed 20 m/s`: a name and its value.
+pub(super) fn named_quantity(name: &str, value: f64, unit: &str, angles: Angles) -> String {
+    format!("{name} {}", quantity(value, unit, angles))
 }
 
 /// `speed 20 m/s, lean 30 deg` of one point.

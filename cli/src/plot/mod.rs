@@ -16,6 +16,7 @@ mod panel;
 mod phasors;
 mod raster;
 mod root_locus;
+mod sketch;
 mod style;
 mod text;
 
@@ -26,6 +27,7 @@ pub use grid::{Grid, GridPanel};
 pub use lines::{Band, Curve, LinePanel, Lines, Markers};
 pub use phasors::{Phasor, PhasorPanel, Phasors};
 pub use root_locus::{Locus, RootLocus};
+pub use sketch::{Sketch, Stroke};
 
 use canvas::Lettering;
 use std::path::Path;
@@ -45,6 +47,8 @@ pub enum Figure {
     Phasors(Phasors),
     /// What matters most.
     Bars(Bars),
+    /// A drawing to scale.
+    Sketch(Sketch),
 }
 
 impl Figure {
@@ -61,6 +65,7 @@ impl Figure {
             Self::RootLocus(figure) => figure.draw(lettering),
             Self::Phasors(figure) => figure.draw(lettering),
             Self::Bars(figure) => figure.draw(lettering),
+            Self::Sketch(figure) => figure.draw(lettering),
         }
     }
 

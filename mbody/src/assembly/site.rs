@@ -1,10 +1,10 @@
 //! Where an element is built: names become bodies here, and findings get their place in the file.
 
 use crate::constraint::Constraint;
-use crate::description::{Library, SeenFrom};
 use crate::description::document::Document;
 use crate::description::finding::{Finding, Findings, suggestion};
 use crate::description::quantity::{Quantity, dimension::Length};
+use crate::description::{Library, SeenFrom};
 use crate::model::{BodyIndex, Model};
 use crate::spatial::{Pose, Rotation, Vec3};
 use crate::stage::World;

@@ -106,7 +106,7 @@ impl<S: SystemScalar> Evaluation<S> {
     /// Evaluates residual and outputs at `(time, y, yd, u)`. Allocates nothing.
     pub fn run(&mut self, system: &System, form: &Form) {
         self.stages(system);
-        self.elements(system);
+        self.elements(system, form);
         self.constraints(system, form);
         let (model, w) = (&system.model, &mut self.tree);
         let (nq, nv) = (model.layout.nq(), model.layout.nv());
@@ -191,12 +191,15 @@ impl<S: SystemScalar> Evaluation<S> {
     }
 
     /// Applies all elements: wrenches, joint efforts, rows, outputs.
-    fn elements(&mut self, system: &System) {
+    fn elements(&mut self, system: &System, form: &Form) {
         let (model, w) = (&system.model, &mut self.tree);
         let first = model.layout.nq() + model.layout.nv();
         w.applied.fill(Default::default());
         self.joint_efforts.fill(S::zero());
-        for element in &system.elements {
+        for (k, element) in system.elements.iter().enumerate() {
+            if form.silent.get(k) == Some(&true) {
+                continue;
+            }
             let states = first + element.states.start..first + element.states.end;
             let at = Evaluated {
                 model,

@@ -73,6 +73,8 @@ pub struct Form {
     pub unknowns: Vec<Unknown>,
     /// The rows of F.
     pub equations: Vec<Equation>,
+    /// \[elements\] which are silent: they add no force, their rows and outputs stay 0. Empty where none is.
+    pub(super) silent: Vec<bool>,
     /// Index of the first multiplier in y; its row has the same index.
     pub(super) first_multiplier: usize,
     /// Index of the first stabilizing multiplier in y, where there are some.
@@ -106,7 +108,7 @@ impl Form {
                 equations.push(constraint_row(m, EquationKind::Constraint));
             }
         }
-        Self { formulation, unknowns, equations, first_multiplier, first_correction }
+        Self { formulation, unknowns, equations, first_multiplier, first_correction, silent: Vec::new() }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::closure::{Closure, Work};
 use super::evaluation::{Evaluation, Evaluations, Maker};
 use super::explicit::ExplicitSolver;
-use super::{Account, Form, Formulation, System};
+use super::{Account, Element, Form, Formulation, System};
 use crate::scalar::{Lanes, PerScalar, SystemScalar};
 use problem::{
     At, Dae, Differentiable, Equation, EvalError, Explicit, Input, Limit, Limits, Matrix, Outputs, Projection, ProjectionError, Seeds,
@@ -33,6 +33,15 @@ impl TreePlant {
     pub fn in_formulation(system: Arc<System>, formulation: Formulation) -> Self {
         let form = Arc::new(Form::new(&system, formulation));
         Self::with(system, form)
+    }
+
+    /// A plant over a shared system in which some elements are silent: they add no force, and their rows and outputs stay 0.
+    ///
+    /// For experiments on a part of a system, as a mechanism without what acts on its end. Held by the tests of the services that make them.
+    pub fn without(system: Arc<System>, silent: impl Fn(&Element) -> bool) -> Self {
+        let mut form = system.form.as_ref().clone();
+        form.silent = system.elements.iter().map(silent).collect();
+        Self::with(system, Arc::new(form))
     }
 
     fn with(system: Arc<System>, form: Arc<Form>) -> Self {

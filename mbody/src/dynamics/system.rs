@@ -139,6 +139,7 @@ impl System {
             equations: Vec::new(),
             first_multiplier: 0,
             first_correction: 0,
+            silent: Vec::new(),
         };
         let mut system = Self {
             elements: Vec::with_capacity(forces.len()),

@@ -5,6 +5,7 @@ use crate::scalar::{Family, Make, PerScalar, SystemScalar};
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
 use crate::stage::{Acceleration, Position, Velocity, World};
 use problem::Side;
+use std::any::Any;
 use std::sync::Arc;
 
 /// A state that an element owns: deflection, lag, integrator.
@@ -337,6 +338,7 @@ impl<L: ForceLaw> Make<Twins> for Maker<L> {
 pub struct Force {
     name: String,
     declared: Declared,
+    law: Arc<dyn Any + Send + Sync>,
     twins: PerScalar<Twins>,
 }
 
@@ -351,7 +353,13 @@ impl Force {
     pub fn new<L: ForceLaw>(name: impl Into<String>, law: L) -> Self {
         let name = name.into();
         let declared = law.declare(&name);
-        Self { name, declared, twins: PerScalar::new(&Maker(Arc::new(law))) }
+        let law = Arc::new(law);
+        Self { name, declared, law: law.clone(), twins: PerScalar::new(&Maker(law)) }
+    }
+
+    /// The law as its author wrote it, where it is an `L`: for services that read its parameters.
+    pub fn law<L: ForceLaw>(&self) -> Option<&L> {
+        self.law.downcast_ref()
     }
 
     /// Name in the description.

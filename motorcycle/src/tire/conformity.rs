@@ -1,4 +1,6 @@
 //! What every friction law is held to: exact derivatives, sane limits, left/right symmetry.
+//!
+//! For the tests of laws, here and in other crates: each function panics where a law breaks its condition.
 
 use super::{AnyTireLaw, Friction, Slip, TireLaw};
 use mbody::scalar::{Lanes, Real};
@@ -39,7 +41,10 @@ fn derivatives(law: &impl TireLaw, at: [f64; 5]) -> [[f64; 5]; 6] {
 }
 
 /// Dual numbers against central differences of the fourth order, to 1e-6 of the largest derivative of each answer.
-pub(super) fn derivatives_are_exact(law: &impl TireLaw) {
+///
+/// # Panics
+/// The law does not keep it.
+pub fn derivatives_are_exact(law: &impl TireLaw) {
     let steps = [0.5, 2e-5, 2e-5, 1e-4, 0.01];
     for at in slips().filter(|at| at[1..4].iter().all(|x| x.abs() > 1e-3)) {
         let exact = derivatives(law, at);
@@ -61,7 +66,10 @@ pub(super) fn derivatives_are_exact(law: &impl TireLaw) {
 }
 
 /// The mirror image of a slip gives the mirror image of the forces.
-pub(super) fn left_is_right_mirrored(law: &impl TireLaw) {
+///
+/// # Panics
+/// The law does not keep it.
+pub fn left_is_right_mirrored(law: &impl TireLaw) {
     for at in slips() {
         let [fx, fy, mx, mz, used, my] = evaluate(law, at);
         let mirrored = evaluate(law, [at[0], -at[1], at[2], -at[3], at[4]]);
@@ -72,7 +80,10 @@ pub(super) fn left_is_right_mirrored(law: &impl TireLaw) {
 }
 
 /// Zero load, zero slip and a little negative load stay finite, with their derivatives.
-pub(super) fn corners_are_finite(law: &impl TireLaw) {
+///
+/// # Panics
+/// The law does not keep it.
+pub fn corners_are_finite(law: &impl TireLaw) {
     for load in [-10.0, 0.0, 1e-9, 1000.0] {
         for at in [[load, 0.0, 0.0, 0.0, 20.0], [load, 0.0, 0.0, 0.5, 20.0], [load, 0.1, -1.0, -0.5, 0.1]] {
             assert!(evaluate(law, at).iter().all(|x| x.is_finite()), "at {at:?}");
@@ -83,7 +94,10 @@ pub(super) fn corners_are_finite(law: &impl TireLaw) {
 }
 
 /// The cornering stiffness is the slope of the side force of the upright tire.
-pub(super) fn stiffness_is_the_slope(law: &impl TireLaw) {
+///
+/// # Panics
+/// The law does not keep it.
+pub fn stiffness_is_the_slope(law: &impl TireLaw) {
     for load in [400.0, 1100.0, 2500.0] {
         let slope = derivatives(law, [load, 0.0, 0.0, 0.0, 20.0])[1][1];
         assert!((law.cornering_stiffness(load, 0.0) / slope - 1.0).abs() < 1e-12, "at {load} N");
@@ -92,7 +106,10 @@ pub(super) fn stiffness_is_the_slope(law: &impl TireLaw) {
 }
 
 /// Stored behind a pointer the law answers the same, for every scalar.
-pub(super) fn stored_law_is_the_same(law: impl TireLaw + Clone) {
+///
+/// # Panics
+/// The law does not keep it.
+pub fn stored_law_is_the_same(law: impl TireLaw + Clone) {
     let stored = AnyTireLaw::new(law.clone());
     for at in slips().take(10) {
         assert_eq!(evaluate(&stored, at), evaluate(&law, at));
@@ -102,7 +119,10 @@ pub(super) fn stored_law_is_the_same(law: impl TireLaw + Clone) {
 }
 
 /// Everything above.
-pub(super) fn holds(law: &(impl TireLaw + Clone)) {
+///
+/// # Panics
+/// The law does not keep it.
+pub fn holds(law: &(impl TireLaw + Clone)) {
     derivatives_are_exact(law);
     left_is_right_mirrored(law);
     corners_are_finite(law);

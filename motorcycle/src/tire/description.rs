@@ -9,6 +9,7 @@ use super::law_description::{LawDescription, Mounted, NamedLaw, Place};
 use super::rolling_resistance::RollingResistance;
 use super::tir::PropertyFile;
 use super::wheel::Wheel;
+use super::written_law::WrittenLaw;
 use mbody::assembly::{ElementDescription, Site};
 use mbody::contact::Profile;
 use mbody::description::Library;
@@ -27,10 +28,14 @@ pub(super) const SAME_RADIUS: f64 = 1e-3;
 /// Distance from the middle plane beyond which a wheel is on one side of the vehicle, m.
 const ASIDE: f64 = 0.01;
 
+/// A tire on a wheel that rolls on the road, with the friction laws of this crate.
+pub type TireDescription = TireWith<LawDescription>;
+
 /// A tire on a wheel that rolls on the road.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TireDescription {
+#[serde(deny_unknown_fields, bound = "L: WrittenLaw")]
+#[schemars(rename = "TireDescription", bound = "L: WrittenLaw")]
+pub struct TireWith<L> {
     /// Name of the wheel joint; its axis points left, and the origin of its child is the center of the wheel.
     wheel: String,
     /// Free radius on the middle plane; that of the property file where left out.
@@ -41,8 +46,8 @@ pub struct TireDescription {
     /// Springs between rim and road, and how side forces build up; those of the property file where left out.
     carcass: Option<CarcassDescription>,
     /// Friction at the contact.
-    #[schemars(with = "LawDescription")]
-    law: Option<LawDescription>,
+    #[schemars(with = "L")]
+    law: Option<L>,
     /// Whether the tire can leave the road; it can where left out.
     #[serde(default)]
     contact: ContactDescription,
@@ -136,7 +141,7 @@ pub struct QuadraticResistance {
     per_speed_squared: f64,
 }
 
-impl ElementDescription for TireDescription {
+impl<L: WrittenLaw> ElementDescription for TireWith<L> {
     const KIND: &'static str = "tire";
     const ABOUT: &'static str = "tire on a wheel: cross-section, carcass, friction law, rolling resistance";
     const EXAMPLE: &'static str = "{ wheel: front_axle, radius: 0.3 m, crown: { torus: { radius: 60 mm } }, \
@@ -210,7 +215,9 @@ impl TireDescription {
         let lateral_stiffness = description.carcass.as_ref().and_then(CarcassDescription::lateral_stiffness);
         Some(StatedTire { named, lateral_stiffness })
     }
+}
 
+impl<L> TireWith<L> {
     /// What the place of the tire says about its law.
     fn place(&self, site: &Site<'_>) -> Place {
         let aside = site.model().joint(&self.wheel).map_or(0.0, |body| site.design_pose(body).p.y);
@@ -316,9 +323,9 @@ pub(super) fn wheel(site: &mut Site<'_>, joint: &str, profile: Profile, road: Op
 }
 
 /// The law of a description.
-fn chosen_law(description: Option<LawDescription>, place: &Place, site: &mut Site<'_>) -> Option<NamedLaw> {
+fn chosen_law<L: WrittenLaw>(description: Option<L>, place: &Place, site: &mut Site<'_>) -> Option<NamedLaw> {
     let mut findings = Findings::new();
-    let named = description?.law(place, &site.library("law"), &mut findings);
+    let named = description?.named(place, &site.library("law"), &mut findings);
     // what has no line is about an entry of the tire
     let (elsewhere, here): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(|f| !f.file.is_empty());
     site.pass_on(elsewhere.into_iter().collect());
