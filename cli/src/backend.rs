@@ -62,7 +62,12 @@ pub const INTEGRATION: &[IntegrationBackend] = &[
     IntegrationBackend {
         name: "erk",
         about: "SUNDIALS ARKODE: explicit Runge–Kutta of order 8, explicit form with projection",
-        make: Integrator::Explicit(|| Box::new(sundials::ExplicitRungeKutta::default())),
+        make: Integrator::Explicit(|| Box::new(sundials::RungeKutta::explicit())),
+    },
+    IntegrationBackend {
+        name: "dirk",
+        about: "SUNDIALS ARKODE: diagonally implicit Runge–Kutta of order 5, explicit form with projection",
+        make: Integrator::Explicit(|| Box::new(sundials::RungeKutta::implicit())),
     },
     IntegrationBackend {
         name: "cvode",

@@ -13,7 +13,7 @@ use mbody::dynamics::{Account, Formulation, System, TreePlant};
 use mbody::spatial::Vec3;
 use problem::{AlgebraicErrors, At, Dae, Integrable, IntegrationOptions};
 use std::sync::Arc;
-use sundials::{Cvode, ExplicitRungeKutta, Ida};
+use sundials::{Cvode, RungeKutta, Ida};
 
 /// A method with its tolerances.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl By {
     /// It cannot start.
     pub fn run(self, mut transient: Transient, plant: &mut dyn Integrable, inputs: &dyn Inputs) -> Simulation {
         transient.options = self.options();
-        let (mut erk, mut ida, mut bdf, mut adams) = (ExplicitRungeKutta::default(), Ida::default(), Cvode::bdf(), Cvode::adams());
+        let (mut erk, mut ida, mut bdf, mut adams) = (RungeKutta::explicit(), Ida::default(), Cvode::bdf(), Cvode::adams());
         let method = match self {
             Self::Erk(..) => Method::Ode(&mut erk),
             Self::Ida(..) => Method::Dae(&mut ida),

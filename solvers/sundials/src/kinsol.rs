@@ -7,8 +7,8 @@
 //! “Mathematical considerations”; J. E. Dennis, R. B. Schnabel, *Numerical Methods for Unconstrained Optimization and Nonlinear
 //! Equations*, SIAM 1996, algorithm A6.3.1mod.
 
-use crate::guard::finite;
 use crate::raw::kinsol::{Memory, Request, Stop, System};
+use problem::contract::finite;
 use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, EvalError, Matrix};
 
 pub use crate::raw::kinsol::Strategy;

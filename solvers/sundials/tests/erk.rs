@@ -6,10 +6,10 @@ use motion::*;
 use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, OdeMethod, OdeProblem};
 use std::f64::consts::PI;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use sundials::ExplicitRungeKutta;
+use sundials::RungeKutta;
 
 fn erk(problem: &mut dyn OdeProblem, times: &[f64], start: &[f64], options: &IntegrationOptions) -> Record {
-    record_ode(&mut ExplicitRungeKutta::default(), problem, times, start, options)
+    record_ode(&mut RungeKutta::explicit(), problem, times, start, options)
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn an_event_ends_the_integration_at_its_root() {
 
 #[test]
 fn the_integration_goes_on_after_an_event() {
-    let mut erk = ExplicitRungeKutta::default();
+    let mut erk = RungeKutta::explicit();
     let mut pendulum = Pendulum { projected: true, watched: true };
     let (mut y, mut time) = (Pendulum::START.to_vec(), 0.0);
     for passage in 0..4 {
@@ -99,7 +99,7 @@ fn the_receiver_may_stop() {
     for at in 0..3 {
         let mut y = Oscillator::START;
         let mut seen = 0;
-        let outcome = ExplicitRungeKutta::default().integrate(
+        let outcome = RungeKutta::explicit().integrate(
             &mut Oscillator { watched: false },
             &[0.0, 1.0, 2.0],
             &mut y,
@@ -180,7 +180,7 @@ fn times_that_rounding_separates_have_the_same_state() {
 
 #[test]
 fn a_panic_passes_through_and_leaves_the_integrator_usable() {
-    let mut erk = ExplicitRungeKutta::default();
+    let mut erk = RungeKutta::explicit();
     let mut law = Scalar::decay();
     law.rate = |time, y| if time > 0.5 { panic!("the law has no value here") } else { Ok(-y) };
     let panic =
@@ -192,7 +192,7 @@ fn a_panic_passes_through_and_leaves_the_integrator_usable() {
 
 #[test]
 fn the_start_does_not_remember_the_run_before() {
-    let mut kept = ExplicitRungeKutta::default();
+    let mut kept = RungeKutta::explicit();
     let mut runs = Vec::new();
     for _ in 0..2 {
         let times = Pendulum::times();

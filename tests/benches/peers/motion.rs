@@ -20,7 +20,7 @@ fn simulate(plant: &mut TreePlant, implicit: bool, relative_tolerance: f64) -> S
     let transient = Transient { start, times: vec![0.0, 5.0], options, record, ends: Vec::new(), breaks: Vec::new() };
     match implicit {
         true => transient.run(plant, &inputs, Method::Dae(&mut sundials::Ida::default())),
-        false => transient.run(plant, &inputs, Method::Ode(&mut sundials::ExplicitRungeKutta::default())),
+        false => transient.run(plant, &inputs, Method::Ode(&mut sundials::RungeKutta::explicit())),
     }
     .expect("the bicycle rolls")
 }

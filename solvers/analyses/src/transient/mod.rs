@@ -13,6 +13,7 @@
 
 mod acting;
 mod diagnosis;
+mod differences;
 mod ending;
 mod explicit;
 mod implicit;
@@ -32,8 +33,8 @@ pub use trajectory::{Crossing, Drift, LimitMet, NearSingular, Trajectory, Worst}
 use crate::{Variable, Variables};
 use acting::{Acting, Observer};
 use integrate::Integration;
-use pieces::{Pieces, met, nothing_done};
-use problem::{DaeMethod, Flow, Integrable, IntegrationOptions, IntegrationOutcome, Limit, OdeMethod, Plant};
+use pieces::{Pieces, met};
+use problem::{DaeMethod, Flow, Integrable, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Limit, OdeMethod, Plant};
 use recorder::Recorder;
 use std::cell::RefCell;
 use watch::Watch;
@@ -185,7 +186,7 @@ impl Transient {
         let mut pieces = Pieces { samples: &self.times, breaks: self.breaks(inputs), next: 0, times: Vec::with_capacity(self.times.len()) };
         let mut crossings = Vec::new();
         let (ending, statistics) = match self.met_at_start(&plant, &acting, &watch, (&y, &yd)) {
-            Some(ending) => (ending, nothing_done(self.times[0])),
+            Some(ending) => (ending, IntegrationOutcome::nothing_done(IntegrationEnding::Finished, self.times[0])),
             None => pieces.integrate((&plant, &acting, &watch), work, (&mut y, &mut yd), &mut recorder, (&mut crossings, watcher)),
         };
         // what was reached beyond the last sample is kept too

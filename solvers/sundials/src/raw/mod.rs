@@ -9,6 +9,7 @@ mod context;
 pub mod cvode;
 mod dense;
 pub mod ida;
+pub mod integrator;
 pub mod kinsol;
 mod stuck;
 mod vector;
