@@ -79,6 +79,26 @@ pub const INTEGRATION: &[IntegrationBackend] = &[
         about: "SUNDIALS CVODE: Adams formulas of variable order, explicit form",
         make: Integrator::Explicit(|| Box::new(sundials::Cvode::adams())),
     },
+    IntegrationBackend {
+        name: "generalized_alpha",
+        about: "generalized-α of this project, order 2, a fifth of the fastest oscillations damped away per step, implicit form",
+        make: Integrator::Implicit(|| Box::new(native::GeneralizedAlpha::new(0.8))),
+    },
+    IntegrationBackend {
+        name: "dopri5",
+        about: "Dormand and Prince's pair of orders 5 and 4 of this project, explicit form with projection",
+        make: Integrator::Explicit(|| Box::<native::DormandPrince>::default()),
+    },
+    IntegrationBackend {
+        name: "ros2",
+        about: "linearly implicit method of order 2 of this project with steps of one length (`--step`), for simulators",
+        make: Integrator::Explicit(|| Box::new(native::Rosenbrock::second_order())),
+    },
+    IntegrationBackend {
+        name: "linear_euler",
+        about: "linearly implicit Euler method of this project with steps of one length (`--step`), for simulators",
+        make: Integrator::Explicit(|| Box::new(native::Rosenbrock::euler())),
+    },
 ];
 
 /// The integrator with this name.

@@ -35,6 +35,8 @@ const D: [f64; 7] = [
     -1453857185.0 / 822651844.0,
     69997945.0 / 29380423.0,
 ];
+/// First step, in units of the time to go, where what is needed for a better choice cannot be evaluated; the figure of IDA.
+const FIRST: f64 = 1e-3;
 /// Order of the local error in h.
 const ORDER: f64 = 5.0;
 
@@ -53,6 +55,8 @@ struct Work {
     y: Vec<f64>,
     k: [Vec<f64>; 7],
     stage: Vec<f64>,
+    /// The same on the manifold.
+    landed: Vec<f64>,
     /// Coefficients of the continuous extension of the last step.
     dense: [Vec<f64>; 5],
     /// Rates of samples.
@@ -61,7 +65,7 @@ struct Work {
 
 impl Work {
     fn resize(&mut self, size: usize) {
-        let all = [&mut self.y, &mut self.stage, &mut self.rates].into_iter().chain(&mut self.k).chain(&mut self.dense);
+        let all = [&mut self.y, &mut self.stage, &mut self.landed, &mut self.rates].into_iter().chain(&mut self.k).chain(&mut self.dense);
         all.for_each(|vector| vector.resize(size, 0.0));
     }
 }
@@ -183,9 +187,9 @@ impl Run<'_> {
         Ok(tolerances.norm(y, (0..y.len()).map(|i| (i, error(i)))))
     }
 
-    /// Makes the point in `stage` the end of the step.
+    /// Makes the point in `stage`, brought onto the manifold, the end of the step; nothing but the extension changes where that fails.
     fn accept(&mut self, h: f64, end: f64) -> Result<(), EvalError> {
-        let Work { y, k, stage, dense, .. } = &mut *self.work;
+        let Work { y, k, stage, landed, dense, .. } = &mut *self.work;
         for i in 0..y.len() {
             let change = stage[i] - y[i];
             let bend = h * k[0][i] - change;
@@ -195,11 +199,17 @@ impl Run<'_> {
             dense[3][i] = change - h * k[6][i] - bend;
             dense[4][i] = h * D.iter().zip(&*k).map(|(weight, k)| weight * k[i]).sum::<f64>();
         }
-        y.copy_from_slice(stage);
-        self.problem.project(end, y)?;
-        finite(y)?;
+        landed.copy_from_slice(stage);
+        self.problem.project(end, landed)?;
+        finite(landed)?;
+        if landed != stage {
+            self.residuals += 1;
+            self.problem.rates(end, landed, &mut k[6])?;
+            finite(&k[6])?;
+        }
+        y.copy_from_slice(landed);
         (self.begin, self.end) = (self.end, end);
-        if self.work.y != self.work.stage { self.rates_at_end() } else { Ok(()) }
+        Ok(())
     }
 
     /// Tries a step; the norm of its error where that is too large.
@@ -215,8 +225,11 @@ impl Run<'_> {
 impl Path for Run<'_> {
     fn step(&mut self, limit: f64) -> Result<(), IntegrationEnding> {
         let evaluation = IntegrationEnding::Evaluation;
-        let step = self.step.map_or_else(|| self.first_step(limit), Ok);
-        let mut step = step.or_else(|error| if error == fatal(error) { Err(evaluation(error)) } else { Ok(1e-3 * (limit - self.end)) })?;
+        let mut step = match self.step.map_or_else(|| self.first_step(limit), Ok) {
+            Ok(step) => step,
+            Err(error @ EvalError::Fatal { .. }) => return Err(evaluation(error)),
+            Err(EvalError::Recoverable { .. }) => FIRST * (limit - self.end),
+        };
         let (from, mut cuts, mut rejected, mut smallest) = (self.end, 0, false, IntegrationEnding::ErrorTest);
         // the last stage of the step before is the first of this one
         self.work.k.swap(0, 6);
@@ -235,13 +248,8 @@ impl Path for Run<'_> {
                     smallest = IntegrationEnding::ErrorTest;
                 }
                 Err(error) => {
-                    // whatever was moved already goes back
-                    if self.end != from {
-                        self.end = from;
-                    }
-                    self.restore();
                     (self.cuts, cuts, smallest) = (self.cuts + 1, cuts + 1, evaluation(error));
-                    if cuts > MAX_CUTS || error == fatal(error) {
+                    if cuts > MAX_CUTS || matches!(error, EvalError::Fatal { .. }) {
                         break;
                     }
                     (step, rejected) = (CUT * h, true);

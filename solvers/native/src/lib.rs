@@ -1,6 +1,16 @@
-//! Nonlinear solvers written in Rust.
+//! Solvers written in Rust: nonlinear systems, and methods of one step for motions.
 
+mod dormand_prince;
 mod elimination;
+mod factorization;
+mod generalized_alpha;
 mod newton;
+mod path;
+mod rosenbrock;
+mod segment;
+mod step_control;
 
+pub use dormand_prince::DormandPrince;
+pub use generalized_alpha::GeneralizedAlpha;
 pub use newton::Newton;
+pub use rosenbrock::Rosenbrock;
