@@ -61,6 +61,7 @@ fn lane_change(clock: &mut Clock, name: &str, implicit: bool) {
 pub fn run(clock: &mut Clock) {
     let (relative, absolute) = TOLERANCES;
     pulse(clock, "second of moto11, IDA", By::Ida(relative, absolute));
+    pulse(clock, "second of moto11, dopri5", By::Dopri5(relative, absolute));
     pulse(clock, "second of moto11, erk", By::Erk(relative, absolute));
     pulse(clock, "second of moto11, CVODE", By::Bdf(relative, absolute));
     lane_change(clock, "lane change of gsxr1000, IDA", true);
