@@ -99,6 +99,21 @@ pub const INTEGRATION: &[IntegrationBackend] = &[
         about: "linearly implicit Euler method of this project with steps of one length (`--step`), for simulators",
         make: Integrator::Explicit(|| Box::new(native::Rosenbrock::euler())),
     },
+    IntegrationBackend {
+        name: "diffsol_bdf",
+        about: "diffsol: BDF of variable order in Rust, explicit form",
+        make: Integrator::Explicit(|| Box::new(native::Diffsol::bdf())),
+    },
+    IntegrationBackend {
+        name: "diffsol_esdirk34",
+        about: "diffsol: diagonally implicit Runge–Kutta of order 4, explicit form",
+        make: Integrator::Explicit(|| Box::new(native::Diffsol::esdirk34())),
+    },
+    IntegrationBackend {
+        name: "diffsol_tsit45",
+        about: "diffsol: explicit Runge–Kutta pair of Tsitouras of order 5, explicit form",
+        make: Integrator::Explicit(|| Box::new(native::Diffsol::tsit45())),
+    },
 ];
 
 /// The integrator with this name.

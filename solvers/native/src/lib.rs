@@ -1,5 +1,6 @@
 //! Solvers written in Rust: nonlinear systems, and methods of one step for motions.
 
+mod diffsol;
 mod dormand_prince;
 mod elimination;
 mod factorization;
@@ -10,6 +11,7 @@ mod rosenbrock;
 mod segment;
 mod step_control;
 
+pub use diffsol::Diffsol;
 pub use dormand_prince::DormandPrince;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use newton::Newton;

@@ -29,6 +29,11 @@ impl Tolerances {
         self.absolute.extend(absolute.iter().map(|tolerance| tolerance * options.absolute_tolerance_factor));
     }
 
+    /// Absolute tolerances.
+    pub(crate) fn absolute(&self) -> &[f64] {
+        &self.absolute
+    }
+
     /// Whether every entry is held to something.
     pub(crate) fn usable(&self) -> bool {
         self.relative > 0.0 && self.absolute.iter().all(|tolerance| *tolerance > 0.0)

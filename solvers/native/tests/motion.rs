@@ -4,7 +4,7 @@
 mod motion;
 
 use motion::*;
-use native::{DormandPrince, GeneralizedAlpha, Rosenbrock};
+use native::{Diffsol, DormandPrince, GeneralizedAlpha, Rosenbrock};
 use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, OdeMethod};
 use std::f64::consts::PI;
 
@@ -20,6 +20,11 @@ fn explicit() -> [(Box<dyn OdeMethod>, f64, f64); 3] {
 
 fn options(relative: f64, fixed_step: f64) -> IntegrationOptions {
     IntegrationOptions { fixed_step, ..tolerance(relative) }
+}
+
+/// The methods of `diffsol`, with the error allowed as above.
+fn foreign() -> [(Box<dyn OdeMethod>, f64, f64); 3] {
+    [(Box::new(Diffsol::bdf()), 1.0, 1e-5), (Box::new(Diffsol::esdirk34()), 1.0, 1e-5), (Box::new(Diffsol::tsit45()), 1.0, 1e-5)]
 }
 
 /// Order from errors at two lengths of steps.
@@ -101,7 +106,7 @@ fn generalized_alpha_chooses_its_steps() {
 #[test]
 fn errors_follow_tolerances_and_samples_lie_on_steps_as_well_as_between() {
     let times: Vec<f64> = grid(0.0, 10.0, 173);
-    for (mut method, step, allowed) in explicit() {
+    for (mut method, step, allowed) in explicit().into_iter().chain(foreign()) {
         let record = record_ode(&mut *method, &mut Oscillator { watched: false }, &times, &Oscillator::START, &options(1e-8, step));
         let record = record.finished(&times);
         assert!(record.deviation(Oscillator::exact) < allowed, "{} {:e}", method.name(), record.deviation(Oscillator::exact));
@@ -133,7 +138,7 @@ fn stiff_decay_is_no_matter_for_linearly_implicit_methods() {
 #[test]
 fn samples_lie_on_the_manifold() {
     let times = Pendulum::times();
-    for (mut method, step, _) in explicit() {
+    for (mut method, step, _) in explicit().into_iter().chain(foreign()) {
         let record = record_ode(&mut *method, &mut Pendulum { projected: true, watched: false }, &times, &Pendulum::START, &options(1e-9, step));
         let off = record.finished(&times).samples.iter().map(|(_, s, _)| (s[0].hypot(s[1]) - 1.0).abs()).fold(0.0, f64::max);
         assert!(off < 1e-15, "{} {off:e}", method.name());
@@ -144,7 +149,7 @@ fn samples_lie_on_the_manifold() {
 fn an_event_ends_the_integration_at_its_root() {
     let times = grid(0.0, 10.0, 7);
     let root = 2.0 * PI / 3.0;
-    for (mut method, step, allowed) in explicit() {
+    for (mut method, step, allowed) in explicit().into_iter().chain(foreign()) {
         let record = record_ode(&mut *method, &mut Oscillator { watched: true }, &times, &Oscillator::START, &options(1e-10, step));
         assert_eq!(record.outcome.ending, IntegrationEnding::Event { event: 1, rising: false }, "{}", method.name());
         assert!((record.outcome.time - root).abs() < allowed, "{} {}", method.name(), record.outcome.time - root);
@@ -159,7 +164,7 @@ fn an_event_ends_the_integration_at_its_root() {
 
 #[test]
 fn the_receiver_of_samples_may_stop() {
-    for (mut method, step, _) in explicit() {
+    for (mut method, step, _) in explicit().into_iter().chain(foreign()) {
         for at in [0, 1] {
             let (mut y, mut seen) = (Oscillator::START, 0);
             let outcome = method.integrate(&mut Oscillator { watched: false }, &[0.0, 1.0, 2.0], &mut y, &options(1e-9, step), &mut |time, _, _| {
@@ -179,6 +184,11 @@ fn a_wall_is_reached_and_named() {
     assert_eq!(record.outcome.ending, IntegrationEnding::Evaluation(EvalError::Recoverable { equation: 7 }));
     assert!((0.49..=0.5).contains(&record.outcome.time), "{:?}", record.outcome);
     assert!((record.y[0] - (-record.outcome.time).exp()).abs() < 1e-7 && record.samples.len() == 2);
+    for (mut method, _, _) in foreign() {
+        let record = record_ode(&mut *method, &mut walled, &[0.0, 0.25, 1.0], &[1.0], &tolerance(1e-9));
+        assert_eq!(record.outcome.ending, IntegrationEnding::Evaluation(EvalError::Recoverable { equation: 7 }), "{}", method.name());
+        assert!((0.4..=0.5).contains(&record.outcome.time) && record.samples.len() == 2, "{} {:?}", method.name(), record.outcome);
+    }
     // a step that cannot be shortened ends there
     let record = record_ode(&mut Rosenbrock::second_order(), &mut walled, &[0.0, 0.25, 1.0], &[1.0], &options(1e-9, 0.01));
     assert_eq!(record.outcome.ending, IntegrationEnding::Evaluation(EvalError::Recoverable { equation: 7 }));
@@ -193,7 +203,7 @@ fn a_wall_is_reached_and_named() {
 
 #[test]
 fn endings_are_told_apart() {
-    for (mut method, step, _) in explicit() {
+    for (mut method, step, _) in explicit().into_iter().chain(foreign()) {
         let few = IntegrationOptions { max_steps: 3, ..options(1e-9, step) };
         let record = record_ode(&mut *method, &mut Oscillator { watched: false }, &[0.0, 100.0], &Oscillator::START, &few);
         assert_eq!((record.outcome.ending, record.outcome.steps), (IntegrationEnding::TooManySteps, 3));
