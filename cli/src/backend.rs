@@ -25,6 +25,26 @@ pub const ALGEBRAIC: &[AlgebraicBackend] = &[
         about: "damped Newton of this project, without calls to C",
         make: || Box::new(native::Newton::new()),
     },
+    AlgebraicBackend {
+        name: "newton_simplified",
+        about: "the same with matrices that are kept while they lead on fast",
+        make: || Box::new(native::Newton::simplified()),
+    },
+    AlgebraicBackend {
+        name: "kinsol_newton",
+        about: "SUNDIALS KINSOL: full Newton steps",
+        make: || Box::new(sundials::Kinsol::new(sundials::Strategy::FullStep)),
+    },
+    AlgebraicBackend {
+        name: "kinsol_picard",
+        about: "SUNDIALS KINSOL: Picard iteration with Anderson acceleration, matrices renewed every ten iterations",
+        make: || Box::new(sundials::Kinsol::new(sundials::Strategy::Picard)),
+    },
+    AlgebraicBackend {
+        name: "kinsol_fixed_point",
+        about: "SUNDIALS KINSOL: fixed-point iteration with the matrix of the start and Anderson acceleration",
+        make: || Box::new(sundials::Kinsol::new(sundials::Strategy::FixedPoint)),
+    },
 ];
 
 /// The backend with this name.

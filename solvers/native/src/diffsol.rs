@@ -121,7 +121,7 @@ impl OdeMethod for Diffsol {
             Formulas::Esdirk34 => made.esdirk34::<Solver>().map(|solver| run.follow(solver, (y, &mut rates), sink)),
             Formulas::Tsit45 => made.tsit45().map(|solver| run.follow(solver, (y, &mut rates), sink)),
         });
-        let error = shared.borrow().error;
+        let error = shared.borrow().error.map(|(_, error)| error);
         begun.unwrap_or_else(|_| {
             let ending = error.map_or(IntegrationEnding::Refused, IntegrationEnding::Evaluation);
             IntegrationOutcome::nothing_done(ending, times[0])
@@ -137,18 +137,16 @@ struct Shared<'a> {
     at: Option<(f64, Vec<f64>)>,
     residuals: usize,
     jacobians: usize,
-    /// Why the last evaluation failed.
-    error: Option<EvalError>,
+    /// Where and why an evaluation failed that no step has passed since.
+    error: Option<(f64, EvalError)>,
 }
 
 impl Shared<'_> {
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError> {
         self.residuals += 1;
         // points that are no numbers follow from an error before
-        finite(y).map_err(|error| *self.error.get_or_insert(error))?;
-        let evaluated = self.problem.rates(time, y, yd).and_then(|()| finite(yd));
-        self.error = evaluated.err();
-        evaluated
+        finite(y).map_err(|error| self.error.get_or_insert((time, error)).1)?;
+        self.problem.rates(time, y, yd).and_then(|()| finite(yd)).map_err(|error| self.error.insert((time, error)).1)
     }
 
     /// What cannot be evaluated is no number: the package rejects the step.
@@ -166,7 +164,7 @@ impl Shared<'_> {
             match finite(y).and_then(|()| self.problem.jacobian(time, y, &mut self.matrix)) {
                 Ok(()) => self.at = Some((time, y.to_vec())),
                 Err(error) => {
-                    self.error.get_or_insert(error);
+                    self.error.get_or_insert((time, error));
                     return yd.fill(f64::NAN);
                 }
             }
@@ -263,7 +261,7 @@ where
             self.stop = Some(stop);
         }
         let stepped = self.solver.step();
-        let error = self.shared.borrow().error;
+        let error = self.shared.borrow().error.map(|(_, error)| error);
         let state = self.solver.state();
         // a point that is no number passes the error test of the package
         let ending = match stepped {
@@ -298,7 +296,9 @@ where
         let end = state.y.inner().as_slice();
         self.landed.copy_from_slice(end);
         self.span = (self.span.1, state.t);
-        self.shared.borrow_mut().problem.project(state.t, &mut self.landed).map_err(IntegrationEnding::Evaluation)?;
+        let mut shared = self.shared.borrow_mut();
+        shared.error = shared.error.filter(|(failed, _)| *failed > state.t);
+        shared.problem.project(state.t, &mut self.landed).map_err(IntegrationEnding::Evaluation)?;
         let moved = self.landed.iter().zip(end).map(|(to, from)| to - from).enumerate();
         self.drifted = self.tolerances.norm(end, moved) > self.drift;
         Ok(())
