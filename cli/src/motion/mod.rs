@@ -18,7 +18,7 @@ use analyses::transient::{Cause, Method, Simulation, Start, Trajectory, Transien
 use analyses::{ClosedLoop, Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
-use problem::{Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
+use problem::{Dae, Derivatives, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -30,6 +30,8 @@ const DECAY: f64 = 10.0;
 /// Average step below which a motion is given up, s, and steps that are allowed in any case.
 const SHORTEST_STEP: f64 = 5e-6;
 const FEWEST_STEPS: usize = 2000;
+/// Length of the steps of methods whose steps are all alike, s, where nobody says otherwise: that of many simulators.
+pub const USUAL_STEP: f64 = 1e-3;
 /// The relative tolerance at which absolute tolerances are those that the signals declare.
 const USUAL_TOLERANCE: f64 = 1e-6;
 /// What table and figure show of a vehicle, where the user does not choose.
@@ -57,6 +59,10 @@ pub struct Request {
     pub backend: String,
     /// Name of the formulation, where one is wanted.
     pub formulation: Option<String>,
+    /// Where matrices come from.
+    pub derivatives: Derivatives,
+    /// Length of the steps of methods whose steps are all alike, s.
+    pub fixed_step: f64,
     /// The steady state to start from, where one is wanted.
     pub steady: Option<plan::Request>,
     /// `SIGNAL=VALUE` as typed: replaces values of the start, and inputs.
@@ -118,6 +124,8 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         relative_tolerance: request.relative_tolerance,
         absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit || system.constraints().is_empty()),
         max_step,
+        fixed_step: request.fixed_step,
+        derivatives: request.derivatives,
         max_steps: most_steps(&transient.times),
         ..IntegrationOptions::default()
     };

@@ -155,6 +155,8 @@ impl Work {
             Stop::MaxIterations => AlgebraicEnding::MaxIterations,
             Stop::Singular => AlgebraicEnding::Singular,
             Stop::NoDecrease => AlgebraicEnding::NoDecrease,
+            // the Picard iteration tells a factorization that failed from an evaluation by no code
+            Stop::Evaluation if strategy == Strategy::Picard && report.error.is_none() => AlgebraicEnding::Singular,
             Stop::Evaluation => report.error.map_or(AlgebraicEnding::NoDecrease, AlgebraicEnding::Evaluation),
         };
         AlgebraicOutcome { ending, iterations: report.iterations, residuals, jacobians, residual: best_residual }
