@@ -3,6 +3,7 @@
 #![allow(non_snake_case)]
 
 mod bundled;
+mod every_backend;
 mod every_constraint;
 mod every_element;
 mod every_joint;
@@ -29,6 +30,7 @@ fn the_table_of_evidence_is_up_to_date() {
             every_joint::EVIDENCE,
             every_element::EVIDENCE,
             every_constraint::EVIDENCE,
+            every_backend::EVIDENCE,
             mechanisms::EVIDENCE,
             trim::EVIDENCE,
             linear::EVIDENCE,

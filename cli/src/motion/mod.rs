@@ -122,7 +122,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let mut transient = Transient::new(&plant, request.times.iter().copied().filter(|t| *t <= end).collect());
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
-        absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit || system.constraints().is_empty()),
+        absolute_tolerance_factor: request.relative_tolerance / USUAL_TOLERANCE,
         max_step,
         fixed_step: request.fixed_step,
         derivatives: request.derivatives,
@@ -205,15 +205,6 @@ fn kept(all: &Trajectory, told: Range<usize>) -> Trajectory {
 fn most_steps(times: &[f64]) -> usize {
     let longest = times.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
     (longest / SHORTEST_STEP) as usize + FEWEST_STEPS
-}
-
-/// What multiplies absolute tolerances.
-///
-/// Those of the implicit form with constraints are not tightened: the rounding of a closed loop over a short step is all that a tighter tolerance of the
-/// stabilizing multipliers would ask for.
-fn absolute_factor(relative_tolerance: f64, follows: bool) -> f64 {
-    let factor = relative_tolerance / USUAL_TOLERANCE;
-    if follows { factor } else { factor.max(1.0) }
 }
 
 fn formulation(name: Option<&str>) -> Result<Formulation, Failure> {

@@ -36,6 +36,7 @@ impl<'a, 'p> Implicit<'a, 'p> {
         let observer = Observer::new(plant, acting);
         let p = plant.borrow();
         let (ny, nf, nu, nz) = (p.unknowns().len(), p.equations().len(), p.inputs().len(), p.outputs().len());
+        let tightened = options.absolute_tolerance_factor.min(1.0).max(f64::MIN_POSITIVE);
         let mut seeds = Seeds::zeros(ny, nu, ny);
         (0..ny).for_each(|i| seeds.y[(i, i)] = 1.0);
         Self {
@@ -44,7 +45,8 @@ impl<'a, 'p> Implicit<'a, 'p> {
             watch,
             observer,
             differential: p.unknowns().iter().map(|u| u.differential).collect(),
-            absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance).collect(),
+            // of multipliers no more can be known than rounding of coordinates over a short step leaves: theirs are loosened, never tightened
+            absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance / if u.differential { 1.0 } else { tightened }).collect(),
             nominal: p.equations().iter().map(|e| e.nominal).collect(),
             u: vec![0.0; nu],
             outputs: vec![0.0; nz],
