@@ -1,8 +1,8 @@
 //! The same problem by several methods: motions by every integrator and tolerance, sweeps of steady states by every solver.
 
+use crate::backend::{self, IntegrationBackend, Steps};
 use crate::output::comparison::{Comparison, NONE, Row};
 use crate::output::{History, Progress};
-use crate::backend::{self, IntegrationBackend, Steps};
 use crate::{Failure, maneuver, motion, plan, steady};
 use mbody::dynamics::System;
 use motorcycle::maneuver::Maneuver;

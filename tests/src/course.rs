@@ -14,7 +14,7 @@ use mbody::spatial::Vec3;
 use native::DormandPrince;
 use problem::{AlgebraicErrors, At, Dae, Integrable, IntegrationOptions};
 use std::sync::Arc;
-use sundials::{Cvode, RungeKutta, Ida};
+use sundials::{Cvode, Ida, RungeKutta};
 
 /// A method with its tolerances.
 #[derive(Clone, Copy, Debug)]

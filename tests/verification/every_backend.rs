@@ -17,8 +17,8 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "every integrator in every form that it accepts (three formulations of constraints; explicit) follows the benchmark bicycle, Andrews' mechanism, \
          moto11 with a step of steering torque and the begin of ref11's lane change with its rider",
         "the pair of order 8 at a tolerance of 1e-11",
-        "relative tolerance 1e-6: errors below 1e-3 (2e-2 for order two), since local errors add up over the motion; fixed steps: 2e-2 (order two), 0.2 (order one) at steps \
-         that suit the motion"
+        "relative tolerance 1e-6: errors in nominal values below 1e-3 (5e-3 for Andrews' mechanism, whose multipliers are of the size of its accelerations), since local errors \
+         add up over the motion; twenty times that for order two, 0.2 for order one with steps that suit the motion"
     ),
     exact_matrices_and_differences_lead_to_the_same_motion => (
         "integrators that ask for matrices follow the same motion with exact ones and with difference quotients, the explicit form's included",
@@ -40,13 +40,15 @@ struct Case {
     given: &'static [&'static str],
     duration: f64,
     step: f64,
+    /// Error allowed at a relative tolerance of 1e-6.
+    allowed: f64,
 }
 
 const CASES: [Case; 4] = [
-    Case { model: "whipple", maneuver: None, speed: None, given: &["chassis.roll_rate=0.05"], duration: 0.5, step: 5e-3 },
-    Case { model: "andrews_squeezer", maneuver: None, speed: None, given: &[], duration: 4e-3, step: 2e-5 },
-    Case { model: "moto11", maneuver: None, speed: Some(30.0), given: &["steer.torque=10"], duration: 0.2, step: 1e-3 },
-    Case { model: "ref11", maneuver: Some("lane_change"), speed: None, given: &[], duration: 0.05, step: 1e-3 },
+    Case { model: "whipple", maneuver: None, speed: None, given: &["chassis.roll_rate=0.05"], duration: 0.5, step: 5e-3, allowed: 1e-3 },
+    Case { model: "andrews_squeezer", maneuver: None, speed: None, given: &[], duration: 4e-3, step: 5e-6, allowed: 5e-3 },
+    Case { model: "moto11", maneuver: None, speed: Some(30.0), given: &["steer.torque=10"], duration: 0.2, step: 1e-3, allowed: 1e-3 },
+    Case { model: "ref11", maneuver: Some("lane_change"), speed: None, given: &[], duration: 0.05, step: 1e-3, allowed: 1e-3 },
 ];
 
 impl Case {
@@ -79,21 +81,20 @@ impl Case {
     fn hold(&self, contenders: &[Contender]) {
         let rows = self.compared(contenders);
         assert_eq!(rows.len(), contenders.len());
-        let wrong: Vec<String> = rows.iter().filter(|row| row.because.is_some() || row.error.is_nan() || row.error > allowed(row)).map(told).collect();
+        let allowed = |row: &Compared| match row.backend.as_str() {
+            "linear_euler" => 0.2,
+            "ros2" | "generalized_alpha" => 20.0 * self.allowed,
+            _ => self.allowed,
+        };
+        rows.iter().for_each(|row| println!("{}: {}", self.model, told(row)));
+        let wrong: Vec<String> =
+            rows.iter().filter(|row| row.because.is_some() || row.error.is_nan() || row.error > allowed(row)).map(told).collect();
         assert!(wrong.is_empty(), "{}:\n{}", self.model, wrong.join("\n"));
     }
 }
 
-fn allowed(row: &Compared) -> f64 {
-    match row.backend.as_str() {
-        "linear_euler" => 0.2,
-        "ros2" | "generalized_alpha" => 2e-2,
-        _ => 1e-3,
-    }
-}
-
 fn told(row: &Compared) -> String {
-    let because = row.because.as_deref().unwrap_or("too far");
+    let because = row.because.as_deref().unwrap_or("reached the end");
     format!("{} on {} with {} matrices: error {:.1e}, {because}", row.backend, row.form, row.jacobian, row.error)
 }
 
@@ -125,6 +126,13 @@ fn steady_states_by_every_solver_agree() {
     let request = running(&[15.0, 20.0, 25.0, 30.0]);
     let compared = sweeps(&request, &system("moto11"), "moto11", &names, 1).unwrap_or_else(|_| panic!("a sweep"));
     for row in &compared.rows {
-        assert!(row.rejected == 0 && row.error.max(0.0) < 1e-7, "{}: {} of {} missed, {:.1e}", row.backend, row.rejected, row.steps, row.error);
+        assert!(
+            row.rejected == 0 && row.error.max(0.0) < 1e-7,
+            "{}: {} of {} missed, {:.1e}",
+            row.backend,
+            row.rejected,
+            row.steps,
+            row.error
+        );
     }
 }

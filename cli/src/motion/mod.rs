@@ -140,7 +140,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let beside = beside(request.keep.as_deref(), &plant);
     transient.record = (0..n).map(Variable::Unknown).chain(rates).chain(recorded.variables.iter().chain(&beside).copied()).collect();
     let began = Instant::now();
-    let simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
+    let mut simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
     if let Some(near) = simulation.near_singular {
         warnings.push(format!(
@@ -152,8 +152,9 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let accounts = account::account(&simulation, system);
     let told_columns = 2 * n + nu..2 * n + nu + recorded.variables.len();
     let mut signals = simulation.trajectory.signals[told_columns.clone()].to_vec();
-    let mut columns = simulation.trajectory.columns[told_columns.clone()].to_vec();
-    let kept = if request.keep.is_some() { kept(&simulation.trajectory, told_columns) } else { Trajectory::default() };
+    let kept = if request.keep.is_some() { kept(&simulation.trajectory, told_columns.clone()) } else { Trajectory::default() };
+    // long recordings are moved, not copied
+    let mut columns: Vec<Vec<f64>> = simulation.trajectory.columns.drain(told_columns).collect();
     for &(at, which) in &recorded.accounts {
         signals.insert(at, account::signals()[which].clone());
         columns.insert(at, accounts.columns[which].clone());

@@ -46,7 +46,8 @@ impl Factorization {
         let threshold = n as f64 * f64::EPSILON;
         for k in 0..n {
             let column = &self.factors.column(k)[k..];
-            let (offset, pivot) = column.iter().enumerate().fold((0, 0.0), |best, (i, x)| if x.abs() > best.1 { (i, x.abs()) } else { best });
+            let (offset, pivot) =
+                column.iter().enumerate().fold((0, 0.0), |best, (i, x)| if x.abs() > best.1 { (i, x.abs()) } else { best });
             if pivot.is_nan() || pivot <= threshold * f64::MIN_POSITIVE.sqrt() || !pivot.is_finite() {
                 return Err(SingularColumn(k));
             }

@@ -26,7 +26,11 @@ use problem::{AlgebraicErrors, DaeMethod, DaeProblem, EvalError, IntegrationEndi
 /// Order of the local error in h.
 const ORDER: f64 = 3.0;
 /// Distance from the solution of a step, in units of the tolerance, at which Newton's method ends.
-const CLOSE: f64 = 0.01;
+const CLOSE: f64 = 0.03;
+/// The same where corrections shrink no more: rounding is all that is left. The figure of IDA.
+const ROUNDING: f64 = 0.33;
+/// Changes of length that are not worth a new matrix.
+const SAME: (f64, f64) = (0.9, 1.5);
 /// Most iterations of a step.
 const MOST_ITERATIONS: usize = 8;
 /// Share of one correction that the next may have, where a kept matrix serves.
@@ -281,7 +285,7 @@ impl Run<'_> {
             let rate = size / before;
             // what is left is a geometric series
             let left = if before.is_finite() { size * rate / (1.0 - rate).max(0.1) } else { size };
-            if left <= CLOSE {
+            if left <= CLOSE || (size <= ROUNDING && before.is_finite() && rate > 0.5) {
                 return Ok(());
             }
             if size.is_nan() || rate > 2.0 || (rate > FAST && !fresh) {
@@ -329,6 +333,7 @@ impl Path for Run<'_> {
                     let fixed = self.lengths == Lengths::Fixed;
                     let norm = if fixed { 0.0 } else { self.error(h) };
                     let growth = factor(norm, ORDER);
+                    let growth = if (SAME.0..SAME.1).contains(&growth) && norm <= 1.0 { 1.0 } else { growth };
                     if norm <= 1.0 {
                         if !fixed {
                             self.step = Some(h * if rejected { growth.min(1.0) } else { growth });

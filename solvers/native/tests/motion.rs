@@ -39,7 +39,8 @@ fn orders_are_those_of_the_theory() {
         move |step: f64| {
             // with a tolerance that nothing violates, every step has the length allowed
             let options = IntegrationOptions { first_step: Some(step), max_step: step, ..options(1e3, step) };
-            let record = record_ode(&mut *make(), &mut Oscillator { watched: false }, &times, &Oscillator::START, &options).finished(&times);
+            let record =
+                record_ode(&mut *make(), &mut Oscillator { watched: false }, &times, &Oscillator::START, &options).finished(&times);
             assert_eq!(record.outcome.steps, (10.0 / step).round() as usize);
             record.deviation(Oscillator::exact)
         }
@@ -75,8 +76,8 @@ fn generalized_alpha_leaves_its_share_of_the_fastest_oscillations() {
         let step = 1e5;
         let times = grid(0.0, 60.0 * step, 60);
         let mut method = GeneralizedAlpha::new(radius).with_fixed_steps();
-        let record =
-            record_dae(&mut method, &mut Oscillator { watched: false }, &times, (&[0.0, 1.0], &[1.0, 0.0]), &options(1e-12, step)).finished(&times);
+        let record = record_dae(&mut method, &mut Oscillator { watched: false }, &times, (&[0.0, 1.0], &[1.0, 0.0]), &options(1e-12, step))
+            .finished(&times);
         let size = |k: usize| record.samples[k].1[0].hypot(record.samples[k].1[1]);
         // the eigenvalue is double, so powers of it go with a linear factor
         let share = (size(60) / size(40)).powf(1.0 / 20.0);
@@ -139,7 +140,8 @@ fn stiff_decay_is_no_matter_for_linearly_implicit_methods() {
 fn samples_lie_on_the_manifold() {
     let times = Pendulum::times();
     for (mut method, step, _) in explicit().into_iter().chain(foreign()) {
-        let record = record_ode(&mut *method, &mut Pendulum { projected: true, watched: false }, &times, &Pendulum::START, &options(1e-9, step));
+        let record =
+            record_ode(&mut *method, &mut Pendulum { projected: true, watched: false }, &times, &Pendulum::START, &options(1e-9, step));
         let off = record.finished(&times).samples.iter().map(|(_, s, _)| (s[0].hypot(s[1]) - 1.0).abs()).fold(0.0, f64::max);
         assert!(off < 1e-15, "{} {off:e}", method.name());
     }
@@ -167,10 +169,11 @@ fn the_receiver_of_samples_may_stop() {
     for (mut method, step, _) in explicit().into_iter().chain(foreign()) {
         for at in [0, 1] {
             let (mut y, mut seen) = (Oscillator::START, 0);
-            let outcome = method.integrate(&mut Oscillator { watched: false }, &[0.0, 1.0, 2.0], &mut y, &options(1e-9, step), &mut |time, _, _| {
-                seen += 1;
-                if time == f64::from(at) { Flow::Stop } else { Flow::Continue }
-            });
+            let outcome =
+                method.integrate(&mut Oscillator { watched: false }, &[0.0, 1.0, 2.0], &mut y, &options(1e-9, step), &mut |time, _, _| {
+                    seen += 1;
+                    if time == f64::from(at) { Flow::Stop } else { Flow::Continue }
+                });
             assert_eq!((outcome.ending, outcome.time, seen), (IntegrationEnding::Stopped, f64::from(at), at + 1));
         }
     }
@@ -207,7 +210,9 @@ fn endings_are_told_apart() {
         let few = IntegrationOptions { max_steps: 3, ..options(1e-9, step) };
         let record = record_ode(&mut *method, &mut Oscillator { watched: false }, &[0.0, 100.0], &Oscillator::START, &few);
         assert_eq!((record.outcome.ending, record.outcome.steps), (IntegrationEnding::TooManySteps, 3));
-        for refused in [IntegrationOptions { max_step: 0.0, ..Default::default() }, IntegrationOptions { fixed_step: 0.0, ..Default::default() }] {
+        for refused in
+            [IntegrationOptions { max_step: 0.0, ..Default::default() }, IntegrationOptions { fixed_step: 0.0, ..Default::default() }]
+        {
             let record = record_ode(&mut *method, &mut Oscillator { watched: false }, &[0.0, 1.0], &Oscillator::START, &refused);
             assert_eq!((record.outcome.ending, record.outcome.time), (IntegrationEnding::Refused, 0.0), "{refused:?}");
         }
@@ -222,7 +227,9 @@ fn the_second_integration_of_a_size_allocates_nothing() {
     for (mut method, step, _) in explicit() {
         let mut run = || {
             let mut y = Oscillator::START;
-            method.integrate(&mut Oscillator { watched: true }, &[0.0, 1.0, 3.0], &mut y, &options(1e-9, step), &mut |_, _, _| Flow::Continue);
+            method.integrate(&mut Oscillator { watched: true }, &[0.0, 1.0, 3.0], &mut y, &options(1e-9, step), &mut |_, _, _| {
+                Flow::Continue
+            });
         };
         run();
         assert_eq!(allocation_counter::measure(run).count_total, 0);

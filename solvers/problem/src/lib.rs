@@ -23,7 +23,8 @@ pub use controller::{Answer, AnswerAlong, Controller};
 pub use error::EvalError;
 pub use family::{Family, Member, NoMember, Parameter, ParameterId};
 pub use integration::{
-    AlgebraicErrors, DaeMethod, DaeProblem, Derivatives, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink,
+    AlgebraicErrors, DaeMethod, DaeProblem, Derivatives, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod,
+    OdeProblem, Sink,
 };
 pub use matrix::Matrix;
 pub use mode::{ModeRule, Nature, Occurs};

@@ -135,7 +135,14 @@ impl Work {
     fn new(size: usize, table: Table) -> Self {
         let point = Point { time: 0.0, y: vec![0.0; size], events: Vec::new() };
         let rates = Rates { time: f64::NAN, y: vec![0.0; size], yd: vec![0.0; size] };
-        Self { memory: Memory::new(size, table), rates, jacobian: Matrix::zeros(size, size), before: point.clone(), after: point.clone(), beyond: point }
+        Self {
+            memory: Memory::new(size, table),
+            rates,
+            jacobian: Matrix::zeros(size, size),
+            before: point.clone(),
+            after: point.clone(),
+            beyond: point,
+        }
     }
 
     /// Hands start and tolerances to ARKODE. False where it does not accept the tolerances.

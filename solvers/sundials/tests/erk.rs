@@ -1,4 +1,4 @@
-//! The explicit Runge–Kutta method of ARKODE on problems with published or exact solutions.
+//! The Runge–Kutta methods of ARKODE on problems with published or exact solutions.
 
 mod motion;
 
@@ -202,4 +202,42 @@ fn the_start_does_not_remember_the_run_before() {
         record_ode(&mut kept, &mut Arenstorf, &[0.0, 1.0], &Arenstorf::START, &tolerance(1e-6));
     }
     assert_eq!(runs[0], runs[1]);
+}
+
+fn dirk(problem: &mut dyn OdeProblem, times: &[f64], start: &[f64], options: &IntegrationOptions) -> Record {
+    record_ode(&mut RungeKutta::implicit(), problem, times, start, options)
+}
+
+#[test]
+fn the_implicit_pair_has_order_five() {
+    let error = |step: f64| {
+        // tight enough for Newton's method, loose enough for the steps
+        let options = IntegrationOptions { first_step: Some(step), max_step: step, ..tolerance(1e-4) };
+        let record = dirk(&mut Oscillator { watched: false }, &[0.0, 10.0], &Oscillator::START, &options).finished(&[0.0, 10.0]);
+        assert_eq!(record.outcome.steps, (10.0 / step).round() as usize);
+        record.deviation(Oscillator::exact)
+    };
+    let order = (error(0.25) / error(0.125)).log2();
+    assert!((4.5..6.5).contains(&order), "{order}");
+}
+
+#[test]
+fn the_implicit_pair_takes_stiff_decay_in_few_steps() {
+    let mut stiff = Scalar::decay();
+    stiff.rate = |time, y| Ok(-1e6 * (y - time.cos()));
+    stiff.slope = |_, _| Ok(-1e6);
+    let record = dirk(&mut stiff, &[0.0, 1.0], &[1.0], &tolerance(1e-6)).finished(&[0.0, 1.0]);
+    assert!((record.y[0] - 1f64.cos()).abs() < 1e-5, "{:?}", record.y);
+    assert!(record.outcome.steps < 200 && record.outcome.jacobians > 0 && record.outcome.iterations > 0, "{:?}", record.outcome);
+}
+
+#[test]
+fn the_implicit_pair_stays_on_the_manifold_and_finds_events() {
+    let times = Pendulum::times();
+    let record = dirk(&mut Pendulum { projected: true, watched: false }, &times, &Pendulum::START, &tolerance(1e-9)).finished(&times);
+    assert!(record.samples.iter().all(|(_, s, _)| (s[0].hypot(s[1]) - 1.0).abs() < 1e-15));
+    assert!(record.deviation(Pendulum::exact) < 1e-6, "{:e}", record.deviation(Pendulum::exact));
+    let record = dirk(&mut Oscillator { watched: true }, &[0.0, 10.0], &Oscillator::START, &tolerance(1e-10));
+    assert_eq!(record.outcome.ending, IntegrationEnding::Event { event: 1, rising: false });
+    assert!((record.outcome.time - 2.0 * PI / 3.0).abs() < 1e-8, "{}", record.outcome.time);
 }

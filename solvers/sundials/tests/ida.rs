@@ -6,7 +6,7 @@ use motion::*;
 use problem::{AlgebraicErrors, DaeMethod, DaeProblem, EvalError, Flow, IntegrationEnding, IntegrationOptions, Matrix};
 use std::f64::consts::PI;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use sundials::{RungeKutta, Ida};
+use sundials::{Ida, RungeKutta};
 
 const OSCILLATOR: (&[f64], &[f64]) = (&[0.0, 1.0], &[1.0, 0.0]);
 

@@ -239,9 +239,7 @@ impl Memory {
         match self.table {
             Table::Explicit(_) => (0, 0),
             // SAFETY: `raw` is a living integrator.
-            Table::Implicit(_) => unsafe {
-                (count(self.raw, ARKodeGetNumNonlinSolvIters), count(self.raw, ARKodeGetNumStepSolveFails))
-            },
+            Table::Implicit(_) => unsafe { (count(self.raw, ARKodeGetNumNonlinSolvIters), count(self.raw, ARKodeGetNumStepSolveFails)) },
         }
     }
 }

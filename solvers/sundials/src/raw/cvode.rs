@@ -11,11 +11,11 @@ use sundials_sys::{
     CV_ADAMS, CV_BDF, CV_CONV_FAILURE, CV_ERR_FAILURE, CV_FIRST_RHSFUNC_ERR, CV_ILL_INPUT, CV_LSETUP_FAIL, CV_LSOLVE_FAIL, CV_NORMAL,
     CV_PROJFUNC_FAIL, CV_REPTD_PROJFUNC_ERR, CV_REPTD_RHSFUNC_ERR, CV_RHSFUNC_FAIL, CV_ROOT_RETURN, CV_RTFUNC_FAIL, CV_SUCCESS,
     CV_TOO_CLOSE, CV_TOO_MUCH_ACC, CV_TOO_MUCH_WORK, CV_TSTOP_RETURN, CV_UNREC_RHSFUNC_ERR, CVode, CVodeCreate, CVodeFree,
-    CVodeGetCurrentStep, CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumNonlinSolvIters,
-    CVodeGetNumStepSolveFails, CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances,
-    CVodeSetInitStep, CVodeSetJacFn, CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn,
-    CVodeSetNonlinearSolver, CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNNonlinSol_FixedPoint,
-    SUNMatrix, SUNNonlinSolFree, SUNNonlinearSolver,
+    CVodeGetCurrentStep, CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumNonlinSolvIters, CVodeGetNumStepSolveFails,
+    CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances, CVodeSetInitStep, CVodeSetJacFn,
+    CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn, CVodeSetNonlinearSolver,
+    CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNMatrix, SUNNonlinSol_FixedPoint, SUNNonlinSolFree,
+    SUNNonlinearSolver,
 };
 
 /// What CVODE calls back.

@@ -5,8 +5,8 @@ use super::index;
 use super::vector::Vector;
 use std::slice;
 use sundials_sys::{
-    SUNDenseMatrix, SUNDenseMatrix_Data, SUNDenseMatrix_LData, SUNLinSol_Dense, SUNLinSolFree, SUNLinSolInitialize,
-    SUNLinSolSetup, SUNLinSolSolve, SUNLinearSolver, SUNMatDestroy, SUNMatrix,
+    SUNDenseMatrix, SUNDenseMatrix_Data, SUNDenseMatrix_LData, SUNLinSol_Dense, SUNLinSolFree, SUNLinSolInitialize, SUNLinSolSetup,
+    SUNLinSolSolve, SUNLinearSolver, SUNMatDestroy, SUNMatrix,
 };
 
 /// Owner of one square dense `SUNMatrix` and of its LU solver.
