@@ -92,8 +92,10 @@ impl Newton {
             for i in (first..n).filter(|&i| !plant.unknowns()[i].differential) {
                 yd[i] = 0.0;
             }
+            // steps with a kept matrix shrink as a geometric series: the next one would be this long
+            let next = if before.is_finite() { longest * (longest / before) } else { longest };
             // beside convergence: small steps that shrink no more are rounding
-            if longest <= CONVERGED || (longest <= ROUNDING && longest > 0.5 * before) {
+            if next <= CONVERGED || (longest <= ROUNDING && longest > 0.5 * before) {
                 break;
             }
             // a matrix that does not take off a digit and a half is that of another point
@@ -102,8 +104,7 @@ impl Newton {
             }
             before = longest;
         }
-        let at = At { time, y, yd, u };
-        self.residual.copy_from_slice(&plant.evaluate_at(at).residual);
+        // rows of coordinates depend on no acceleration: those of the last iteration are those of the solution
         if let Some(equation) = self.residual.iter().position(|r| !r.is_finite()) {
             self.factors = None;
             return Err(EvalError::Recoverable { equation });
