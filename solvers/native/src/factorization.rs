@@ -80,8 +80,9 @@ impl Factorization {
     pub fn solve(&self, b: &mut [f64]) {
         let n = self.exchanged.len();
         b.iter_mut().zip(&self.row_scale).for_each(|(b, scale)| *b *= scale);
+        // rows of L were exchanged whole, so all exchanges come first
+        (0..n).for_each(|k| b.swap(k, self.exchanged[k]));
         for k in 0..n {
-            b.swap(k, self.exchanged[k]);
             let (top, below) = b[k..].split_first_mut().expect("k < n");
             below.iter_mut().zip(&self.factors.column(k)[k + 1..]).for_each(|(x, l)| *x -= l * *top);
         }
@@ -111,6 +112,17 @@ mod tests {
                 assert!((found - x).abs() <= 1e-12 * x.abs(), "{found} {x}");
             }
         }
+        // every column needs an exchange
+        let n = 6;
+        let entry =
+            |i: usize, j: usize| ((7 * i * i + 3 * j * j + 5 * i * j + 1) % 11) as f64 - 4.0 + if (i + 1) % n == j { 20.0 } else { 0.0 };
+        let mut factors = Factorization::new(n);
+        factors.factorize(&[1.0; 6], entry).unwrap();
+        let x: Vec<f64> = (0..n).map(|i| (i as f64 - 2.5).powi(3)).collect();
+        let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| entry(i, j) * x[j]).sum()).collect();
+        factors.solve(&mut b);
+        assert!(b.iter().zip(&x).all(|(found, x)| (found - x).abs() < 1e-11), "{b:?}");
+        let mut factors = Factorization::new(3);
         assert_eq!(factors.factorize(&[1.0; 3], |i, _| i as f64), Err(SingularColumn(1)));
         assert!(factors.factorize(&[1.0; 3], |_, _| f64::NAN).is_err());
     }

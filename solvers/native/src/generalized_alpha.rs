@@ -32,7 +32,7 @@ const ROUNDING: f64 = 0.33;
 /// Changes of length that are not worth a new matrix.
 const SAME: (f64, f64) = (0.9, 1.5);
 /// Most iterations of a step.
-const MOST_ITERATIONS: usize = 8;
+const MOST_ITERATIONS: usize = 10;
 /// Share of one correction that the next may have, where a kept matrix serves.
 const FAST: f64 = 0.3;
 /// Change of α/h at which a matrix is kept no longer.
