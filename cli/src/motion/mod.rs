@@ -129,6 +129,8 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         max_steps: most_steps(&transient.times),
         ..IntegrationOptions::default()
     };
+    // of multipliers that stabilize, rounding leaves no more than their declared tolerance
+    transient.algebraic_factor = Some((request.relative_tolerance / USUAL_TOLERANCE).max(1.0));
     transient.ends = condition::conditions(&request.until, &plant)?;
     transient.ends.extend(ends);
     transient.breaks = plant.breaks();

@@ -32,11 +32,18 @@ pub(super) struct Implicit<'a, 'p> {
 }
 
 impl<'a, 'p> Implicit<'a, 'p> {
-    pub(super) fn new(plant: &'a SharedPlant<'p>, acting: &'a Acting<'a>, watch: &'a Watch, options: &IntegrationOptions) -> Self {
+    pub(super) fn new(
+        plant: &'a SharedPlant<'p>,
+        acting: &'a Acting<'a>,
+        watch: &'a Watch,
+        options: &IntegrationOptions,
+        algebraic_factor: f64,
+    ) -> Self {
         let observer = Observer::new(plant, acting);
         let p = plant.borrow();
         let (ny, nf, nu, nz) = (p.unknowns().len(), p.equations().len(), p.inputs().len(), p.outputs().len());
-        let tightened = options.absolute_tolerance_factor.min(1.0).max(f64::MIN_POSITIVE);
+        // the method multiplies all of them by the factor of the options
+        let share = algebraic_factor / options.absolute_tolerance_factor.max(f64::MIN_POSITIVE);
         let mut seeds = Seeds::zeros(ny, nu, ny);
         (0..ny).for_each(|i| seeds.y[(i, i)] = 1.0);
         Self {
@@ -45,8 +52,7 @@ impl<'a, 'p> Implicit<'a, 'p> {
             watch,
             observer,
             differential: p.unknowns().iter().map(|u| u.differential).collect(),
-            // of multipliers no more can be known than rounding of coordinates over a short step leaves: theirs are loosened, never tightened
-            absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance / if u.differential { 1.0 } else { tightened }).collect(),
+            absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance * if u.differential { 1.0 } else { share }).collect(),
             nominal: p.equations().iter().map(|e| e.nominal).collect(),
             u: vec![0.0; nu],
             outputs: vec![0.0; nz],

@@ -26,12 +26,12 @@ pub(super) struct Integration<'a, 'p, 'm> {
 }
 
 impl<'a, 'p, 'm> Integration<'a, 'p, 'm> {
-    /// `spacing` is the shortest distance of two samples.
+    /// Absolute tolerances of algebraic unknowns have a factor of their own; `spacing` is the shortest distance of two samples.
     pub(super) fn new(
         (plant, acting, watch): (&'a SharedPlant<'p>, &'a Acting<'a>, &'a Watch),
         method: Method<'m>,
         (y, yd): (&[f64], &[f64]),
-        options: IntegrationOptions,
+        (options, algebraic_factor): (IntegrationOptions, f64),
         spacing: f64,
     ) -> Self {
         match method {
@@ -40,7 +40,7 @@ impl<'a, 'p, 'm> Integration<'a, 'p, 'm> {
                 // such a step the rounding of a closed loop (1e-17 m) is a correction of 1e-7 m/s, which no iteration resolves, and shorter
                 // steps are worse.
                 let first_step = options.first_step.or(Some(spacing.min(FIRST_STEP)));
-                let form = Form::Implicit(method, Box::new(Implicit::new(plant, acting, watch, &options)));
+                let form = Form::Implicit(method, Box::new(Implicit::new(plant, acting, watch, &options, algebraic_factor)));
                 Self { plant, form, options: IntegrationOptions { first_step, ..options } }
             }
             Method::Ode(method) => {
