@@ -321,7 +321,7 @@ impl Path for Run<'_> {
     fn step(&mut self, limit: f64) -> Result<(), IntegrationEnding> {
         let (begin, from) = self.work.segment.span();
         let last = from - begin;
-        let mut step = self.step.unwrap_or_else(|| 1e-3 * (limit - from));
+        let mut step = self.step.unwrap_or(1e-3 * (limit - from));
         let (mut cuts, mut rejected, mut smallest) = (0, false, IntegrationEnding::ErrorTest);
         loop {
             let (h, end) = fitted(from, step.min(self.max_step), limit);
