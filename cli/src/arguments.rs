@@ -3,9 +3,10 @@
 use crate::Failure;
 use crate::output::{self, Angles, Axes};
 use crate::plot::FileFormat;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use mbody::description::finding::{Finding, suggestion};
 use mbody::description::quantity::{Dimensioned, parse_quantity};
+use problem::Derivatives;
 use std::path::PathBuf;
 
 /// Which model, and what is changed in it.
@@ -165,5 +166,23 @@ mod tests {
         assert!(message("0..60:log10").contains("above zero"));
         assert!(message("1..60:log1").contains("no number of values"));
         assert!(message("fast").contains("--speed fast"));
+    }
+}
+
+/// Where matrices come from, as an option says it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Jacobian {
+    /// Exact derivatives of the engine
+    Exact,
+    /// Difference quotients, one evaluation per column
+    Differences,
+}
+
+impl From<Jacobian> for Derivatives {
+    fn from(jacobian: Jacobian) -> Self {
+        match jacobian {
+            Jacobian::Exact => Self::Exact,
+            Jacobian::Differences => Self::Differences,
+        }
     }
 }

@@ -1,10 +1,12 @@
 //! The same problem by several methods: motions by every integrator and tolerance, sweeps of steady states by every solver.
 
-use crate::output::comparison::{Comparison, Row};
+use crate::backend::{self, IntegrationBackend, Steps};
+use crate::output::comparison::{Comparison, NONE, Row};
 use crate::output::{History, Progress};
-use crate::{Failure, backend, maneuver, motion, plan, steady};
+use crate::{Failure, maneuver, motion, plan, steady};
 use mbody::dynamics::System;
 use motorcycle::maneuver::Maneuver;
+use problem::Derivatives;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -12,12 +14,42 @@ use std::time::Instant;
 const REFERENCES: [(&str, f64); 3] = [("erk", 1e-11), ("ida", 1e-10), ("cvode", 1e-10)];
 
 /// A backend in a form of the problem.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone)]
 pub struct Contender {
-    /// Name of the backend.
-    pub backend: String,
+    /// The backend.
+    pub backend: &'static IntegrationBackend,
     /// Formulation of the constraints, for the implicit form.
     pub formulation: Option<String>,
+    /// Where matrices come from.
+    pub derivatives: Derivatives,
+}
+
+/// How closely, and how often.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Relative tolerances.
+    pub tolerances: Vec<f64>,
+    /// Lengths of steps, s, for methods whose steps are all alike.
+    pub steps: Vec<f64>,
+    /// How often each is timed.
+    pub repeats: usize,
+}
+
+/// What decides about the error of one run.
+#[derive(Clone, Copy, Debug)]
+enum Care {
+    Tolerance(f64),
+    Step(f64),
+}
+
+impl Care {
+    /// Relative tolerance and step; not a number where the other decides.
+    fn told(self) -> (f64, f64) {
+        match self {
+            Self::Tolerance(tolerance) => (tolerance, f64::NAN),
+            Self::Step(step) => (f64::NAN, step),
+        }
+    }
 }
 
 /// A motion to be computed many times.
@@ -34,27 +66,39 @@ pub struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    fn run(&self, contender: &Contender, relative_tolerance: f64) -> Result<History, Failure> {
-        let request = motion::Request {
-            backend: contender.backend.clone(),
+    fn run(&self, contender: &Contender, care: Care) -> Result<History, Failure> {
+        let mut request = motion::Request {
+            backend: contender.backend.name.to_owned(),
             formulation: contender.formulation.clone(),
-            relative_tolerance,
+            derivatives: contender.derivatives,
             ..self.request.clone()
         };
+        match care {
+            Care::Tolerance(tolerance) => request.relative_tolerance = tolerance,
+            Care::Step(step) => request.fixed_step = step,
+        }
         let ride = self.maneuver.clone().map(|(name, m)| maneuver::ride(name, m, self.system)).transpose()?;
         motion::run(&request, self.system, self.model, ride)
     }
 
-    /// All contenders at all tolerances, each `repeats` times, and how far they are from a reference.
+    /// All contenders at all tolerances or steps, and how far they are from a reference.
     ///
     /// # Errors
     /// The motion cannot start.
-    pub fn compare(&self, contenders: &[Contender], tolerances: &[f64], repeats: usize) -> Result<Comparison, Failure> {
-        let progress = Progress::new("compare", contenders.len() * tolerances.len() + 1);
+    pub fn compare(&self, contenders: &[Contender], settings: &Settings) -> Result<Comparison, Failure> {
+        let cares = |contender: &Contender| -> Vec<Care> {
+            match contender.backend.steps {
+                Steps::Variable => settings.tolerances.iter().copied().map(Care::Tolerance).collect(),
+                Steps::Fixed => settings.steps.iter().copied().map(Care::Step).collect(),
+            }
+        };
+        let progress = Progress::new("compare", contenders.iter().map(|c| cares(c).len()).sum::<usize>() + 1);
         let mut warnings = Vec::new();
         let mut reference: Option<(History, String)> = None;
         for (backend, tolerance) in REFERENCES {
-            let found = self.run(&Contender { backend: backend.to_owned(), formulation: None }, tolerance)?;
+            let Some(row) = backend::integration(backend) else { continue };
+            let contender = Contender { backend: row, formulation: None, derivatives: Derivatives::Exact };
+            let found = self.run(&contender, Care::Tolerance(tolerance))?;
             let reached = found.outcome.because.is_none();
             let better = reference.as_ref().is_none_or(|(kept, _)| found.time.len() > kept.time.len());
             if reached || better {
@@ -71,8 +115,8 @@ impl Motion<'_> {
         }
         let mut rows = Vec::new();
         for contender in contenders {
-            for &tolerance in tolerances {
-                rows.push(self.row(contender, tolerance, repeats, &reference)?);
+            for care in cares(contender) {
+                rows.push(self.row(contender, care, settings.repeats, &reference)?);
                 progress.advance();
             }
         }
@@ -81,20 +125,22 @@ impl Motion<'_> {
         Ok(Comparison { model: self.model.to_owned(), problem: what, reference: name, in_time: true, rows, warnings })
     }
 
-    fn row(&self, contender: &Contender, tolerance: f64, repeats: usize, reference: &History) -> Result<Row, Failure> {
+    fn row(&self, contender: &Contender, care: Care, repeats: usize, reference: &History) -> Result<Row, Failure> {
         let mut walls = Vec::with_capacity(repeats);
-        let mut last = self.run(contender, tolerance)?;
+        let mut last = self.run(contender, care)?;
         walls.push(last.outcome.wall);
         for _ in 1..repeats {
-            last = self.run(contender, tolerance)?;
+            last = self.run(contender, care)?;
             walls.push(last.outcome.wall);
         }
         let (least, most) = walls.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(*w), b.max(*w)));
         let s = &last.outcome.statistics;
         Ok(Row {
-            backend: contender.backend.clone(),
+            backend: contender.backend.name.to_owned(),
             form: last.outcome.formulation.to_owned(),
-            relative_tolerance: tolerance,
+            jacobian: if contender.backend.matrices { contender.derivatives.name() } else { NONE },
+            relative_tolerance: care.told().0,
+            step: care.told().1,
             ending: last.outcome.ending.clone(),
             because: last.outcome.because.clone(),
             wall: least,
@@ -181,7 +227,9 @@ pub fn sweeps(
         rows.push(Row {
             backend: name.clone(),
             form: "algebraic".to_owned(),
+            jacobian: NONE,
             relative_tolerance: f64::NAN,
+            step: f64::NAN,
             ending: if missed < found.points.len() { "reached" } else { "not_converged" }.to_owned(),
             because: (missed == found.points.len()).then(|| "no point was reached".to_owned()),
             wall: least,

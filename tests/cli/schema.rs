@@ -109,7 +109,9 @@ fn look(root: &Value, schema: &Value, path: String, units: bool, silent: &mut Ve
     for (key, entry) in schema.get("properties").and_then(Value::as_object).into_iter().flatten() {
         let referred = entry.get("$ref").and_then(Value::as_str).and_then(|r| root.pointer(r.trim_start_matches('#')));
         let of = |v: &Value| v.get("description").and_then(Value::as_str).map(str::to_owned);
-        let about = of(entry).or_else(|| referred.and_then(of)).unwrap_or_default();
+        // of a variant with one key the mapping itself tells what it is
+        let variant = || schema.get("required").and_then(Value::as_array).is_some_and(|r| r.len() == 1).then(|| of(schema)).flatten();
+        let about = of(entry).or_else(|| referred.and_then(of)).or_else(variant).unwrap_or_default();
         let unit = entry.get("quantity").and_then(Value::as_str);
         if about.is_empty() || unit.is_some_and(|u| units && u != "1" && !about.contains(u)) {
             silent.push(format!("{path}/{key}"));

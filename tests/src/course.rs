@@ -11,9 +11,10 @@ use mbody::assembly::{BaseDescription, assemble, assemble_urdf};
 use mbody::description::Library;
 use mbody::dynamics::{Account, Formulation, System, TreePlant};
 use mbody::spatial::Vec3;
+use native::DormandPrince;
 use problem::{AlgebraicErrors, At, Dae, Integrable, IntegrationOptions};
 use std::sync::Arc;
-use sundials::{Cvode, ExplicitRungeKutta, Ida};
+use sundials::{Cvode, Ida, RungeKutta};
 
 /// A method with its tolerances.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +27,8 @@ pub enum By {
     Bdf(f64, f64),
     /// Adams formulas of the explicit form; tolerances as before.
     Adams(f64, f64),
+    /// Dormand and Prince's pair on the explicit form with projection; tolerances as before.
+    Dopri5(f64, f64),
 }
 
 impl By {
@@ -33,7 +36,8 @@ impl By {
         let (Self::Erk(relative_tolerance, absolute_tolerance_factor)
         | Self::Ida(relative_tolerance, absolute_tolerance_factor)
         | Self::Bdf(relative_tolerance, absolute_tolerance_factor)
-        | Self::Adams(relative_tolerance, absolute_tolerance_factor)) = self;
+        | Self::Adams(relative_tolerance, absolute_tolerance_factor)
+        | Self::Dopri5(relative_tolerance, absolute_tolerance_factor)) = self;
         let algebraic = AlgebraicErrors::Suppressed;
         IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 50_000, algebraic, ..Default::default() }
     }
@@ -44,8 +48,10 @@ impl By {
     /// It cannot start.
     pub fn run(self, mut transient: Transient, plant: &mut dyn Integrable, inputs: &dyn Inputs) -> Simulation {
         transient.options = self.options();
-        let (mut erk, mut ida, mut bdf, mut adams) = (ExplicitRungeKutta::default(), Ida::default(), Cvode::bdf(), Cvode::adams());
+        let (mut erk, mut ida, mut bdf, mut adams) = (RungeKutta::explicit(), Ida::default(), Cvode::bdf(), Cvode::adams());
+        let mut dopri5 = DormandPrince::default();
         let method = match self {
+            Self::Dopri5(..) => Method::Ode(&mut dopri5),
             Self::Erk(..) => Method::Ode(&mut erk),
             Self::Ida(..) => Method::Dae(&mut ida),
             Self::Bdf(..) => Method::Ode(&mut bdf),

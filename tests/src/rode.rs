@@ -4,6 +4,7 @@ use crate::vehicle::{Vehicle, running};
 use fastbike::output::History;
 use fastbike::{Failure, maneuver, motion};
 use motorcycle::maneuver::Maneuver;
+use problem::Derivatives;
 
 /// A ride that was computed.
 #[derive(Debug)]
@@ -58,6 +59,8 @@ impl Rode {
             relative_tolerance: care.tolerance,
             backend: care.backend.to_owned(),
             formulation: None,
+            derivatives: Derivatives::Exact,
+            fixed_step: motion::USUAL_STEP,
             steady: Some(running(&[maneuver.course.speed.first()])),
             given: Vec::new(),
             signals: None,

@@ -146,6 +146,8 @@ fn inclined_states_stay() {
                 relative_tolerance: 1e-9,
                 backend: "ida".to_owned(),
                 formulation: None,
+                derivatives: problem::Derivatives::Exact,
+                fixed_step: motion::USUAL_STEP,
                 steady: Some(steady),
                 given: Vec::new(),
                 signals: None,

@@ -4,6 +4,7 @@
 
 mod bundled;
 mod composition;
+mod every_backend;
 mod every_constraint;
 mod every_element;
 mod every_joint;
@@ -31,6 +32,7 @@ fn the_table_of_evidence_is_up_to_date() {
             every_joint::EVIDENCE,
             every_element::EVIDENCE,
             every_constraint::EVIDENCE,
+            every_backend::EVIDENCE,
             mechanisms::EVIDENCE,
             trim::EVIDENCE,
             linear::EVIDENCE,

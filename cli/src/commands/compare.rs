@@ -2,15 +2,16 @@
 
 use super::run::times;
 use super::{Kind, read};
-use crate::arguments::{ModelArguments, OutputArguments, argument, sweep, unknown_name};
-use crate::comparison::{Contender, Motion, sweeps};
+use crate::arguments::{Jacobian, ModelArguments, OutputArguments, argument, sweep, unknown_name};
+use crate::comparison::{Contender, Motion, Settings, sweeps};
 use crate::output::comparison::Comparison;
 use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::{Context, Exit, Failure, backend, maneuver, model, motion, results};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Finding;
-use mbody::description::quantity::dimension::Number;
+use mbody::description::quantity::dimension::{Number, Time};
+use problem::Derivatives;
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "compare", command, run };
@@ -39,6 +40,12 @@ struct Arguments {
     /// Formulations of the constraints for implicit backends; left out: the default one
     #[arg(long, value_delimiter = ',', value_name = "NAME,…")]
     formulations: Vec<String>,
+    /// Matrices of implicit methods: exact derivatives, differences of residuals
+    #[arg(long, value_delimiter = ',', value_enum, default_value = "exact")]
+    jacobian: Vec<Jacobian>,
+    /// Lengths of steps, for methods whose steps are all alike
+    #[arg(long, value_name = "TIME,…", default_value = "2ms,1ms,0.5ms")]
+    steps: String,
     /// Relative tolerances
     #[arg(long, value_name = "NUMBER,…", default_value = "1e-4,1e-6,1e-8")]
     rtol: String,
@@ -87,6 +94,8 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
                 relative_tolerance: 1e-6,
                 backend: String::new(),
                 formulation: None,
+                derivatives: Derivatives::Exact,
+                fixed_step: motion::USUAL_STEP,
                 steady: arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?,
                 given: arguments.given.clone(),
                 signals: None,
@@ -96,14 +105,19 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
                 keep: None,
             };
             let names = chosen(&arguments.backends, backend::INTEGRATION.iter().map(|b| b.name))?;
-            let contenders = contenders(&names, &arguments.formulations)?;
+            let contenders = contenders(&names, &arguments.formulations, &arguments.jacobian)?;
             let tolerances = sweep::<Number>("rtol", &arguments.rtol)?;
             if let Some(bad) = tolerances.iter().find(|t| !(1e-13..=0.1).contains(*t)) {
                 let why = format!("a relative tolerance of `{bad}` is out of range: it must be from 1e-13 to 0.1");
                 return Err(argument("rtol", &arguments.rtol, "out_of_range", why).into());
             }
+            let steps = sweep::<Time>("steps", &arguments.steps)?;
+            if steps.iter().any(|step| *step <= 0.0) {
+                return Err(argument("steps", &arguments.steps, "out_of_range", "a step is longer than 0".to_owned()).into());
+            }
             let maneuver = arguments.maneuver.as_deref().zip(maneuver);
-            Motion { request, system, model: &loaded.name, maneuver }.compare(&contenders, &tolerances, arguments.repeats)?
+            let settings = Settings { tolerances, steps, repeats: arguments.repeats };
+            Motion { request, system, model: &loaded.name, maneuver }.compare(&contenders, &settings)?
         }
     };
     results::deliver(context, (&arguments.model, &arguments.output), comparison, figure)
@@ -121,18 +135,24 @@ fn chosen(named: &[String], known: impl Iterator<Item = &'static str>) -> Result
     }
 }
 
-/// Implicit backends in every formulation that is asked for, explicit ones once.
-fn contenders(backends: &[String], formulations: &[String]) -> Result<Vec<Contender>, Failure> {
+/// Implicit backends in every formulation, those with matrices by every way to them, all others once.
+fn contenders(backends: &[String], formulations: &[String], jacobians: &[Jacobian]) -> Result<Vec<Contender>, Failure> {
     let known = || motion::FORMULATIONS.iter().map(|f| f.name());
     if let Some(unknown) = formulations.iter().find(|f| !known().any(|k| k == f.as_str())) {
         return Err(unknown_name("formulations", unknown, ("formulation", unknown), known()).into());
     }
-    let implicit = |name: &str| backend::integration(name).is_some_and(|b| matches!(b.make, backend::Integrator::Implicit(_)));
-    let of = |name: &String| match implicit(name) && !formulations.is_empty() {
-        true => formulations.iter().map(|f| Contender { backend: name.clone(), formulation: Some(f.clone()) }).collect(),
-        false => vec![Contender { backend: name.clone(), formulation: None }],
-    };
-    Ok(backends.iter().flat_map(of).collect())
+    let mut found = Vec::new();
+    for name in backends {
+        let Some(row) = backend::integration(name) else { continue };
+        let implicit = matches!(row.make, backend::Integrator::Implicit(_)) && !formulations.is_empty();
+        let forms = if implicit { formulations.iter().cloned().map(Some).collect() } else { vec![None] };
+        let ways = if row.matrices { jacobians } else { &[Jacobian::Exact] };
+        for formulation in forms {
+            let of = |&jacobian: &Jacobian| Contender { backend: row, formulation: formulation.clone(), derivatives: jacobian.into() };
+            found.extend(ways.iter().map(of));
+        }
+    }
+    Ok(found)
 }
 
 /// Work over precision: a curve per backend and form.
@@ -142,8 +162,10 @@ fn figure(comparison: &Comparison) -> Result<Figure, Failure> {
     }
     let mut curves: Vec<Curve> = Vec::new();
     for row in comparison.rows.iter().filter(|r| r.because.is_none() && r.error > 0.0) {
-        let several = comparison.rows.iter().any(|r| r.backend == row.backend && r.form != row.form);
-        let name = if several { format!("{}, {}", row.backend, row.form) } else { row.backend.clone() };
+        let others = || comparison.rows.iter().filter(|r| r.backend == row.backend);
+        let form = others().any(|r| r.form != row.form).then_some(row.form.as_str());
+        let jacobian = others().any(|r| r.jacobian != row.jacobian).then_some(row.jacobian);
+        let name = [Some(row.backend.as_str()), form, jacobian].into_iter().flatten().collect::<Vec<_>>().join(", ");
         let point = (row.error, 1e3 * row.wall);
         match curves.iter_mut().find(|c| c.name == name) {
             Some(curve) => curve.points.push(point),
@@ -167,8 +189,8 @@ mod tests {
     fn contenders_are_backends_in_forms() {
         let names = ["ida".to_owned(), "erk".to_owned()];
         let forms = ["ggl".to_owned(), "velocity".to_owned()];
-        let found = contenders(&names, &forms).map(|c| c.len()).ok();
-        assert_eq!(found, Some(3));
-        assert!(contenders(&names, &["ggi".to_owned()]).is_err());
+        let found = contenders(&names, &forms, &[Jacobian::Exact, Jacobian::Differences]).map(|c| c.len()).ok();
+        assert_eq!(found, Some(5));
+        assert!(contenders(&names, &["ggi".to_owned()], &[Jacobian::Exact]).is_err());
     }
 }

@@ -14,7 +14,7 @@ use mbody::description::quantity::Dimensioned;
 use mbody::description::quantity::dimension::{Acceleration, Length, Speed};
 use mbody::dynamics::System;
 use motorcycle::handling::indices::{curvature, koch, lane_change_roll};
-use problem::Signal;
+use problem::{Derivatives, Signal};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -161,6 +161,8 @@ fn ride(system: &Arc<System>, text: &str) -> Result<History, Failure> {
         relative_tolerance: 1e-6,
         backend: "ida".to_owned(),
         formulation: None,
+        derivatives: Derivatives::Exact,
+        fixed_step: motion::USUAL_STEP,
         steady: Some(Request { speed: Some(Prescribed { name: "speed", unit: "m/s", values: vec![speed] }), ..Request::default() }),
         given: Vec::new(),
         signals: None,

@@ -2,7 +2,7 @@
 
 use super::{Kind, read};
 use crate::animation::{self, Scene};
-use crate::arguments::{ModelArguments, OutputArguments, argument};
+use crate::arguments::{Jacobian, ModelArguments, OutputArguments, argument};
 use crate::figures::ride::{self, Picture};
 use crate::output::{Angles, History, Results};
 use crate::plan::SteadyArguments;
@@ -57,9 +57,16 @@ struct Arguments {
     /// `system.power_dissipated`; left out: all (repeatable)
     #[arg(long, value_name = "SIGNAL")]
     record: Vec<String>,
-    /// Solver: ida (implicit), erk (explicit Runge–Kutta), cvode or cvode_adams (explicit multistep)
-    #[arg(long, default_value = "ida")]
+    /// Solver: ida, generalized_alpha (implicit form); erk, dopri5, dirk, cvode, cvode_adams, ros2, linear_euler, diffsol_bdf,
+    /// diffsol_esdirk34, diffsol_tsit45 (explicit form)
+    #[arg(long, default_value = "ida", value_name = "NAME")]
     backend: String,
+    /// Matrices of implicit methods: exact derivatives, or differences of residuals
+    #[arg(long, value_enum, default_value_t = Jacobian::Exact)]
+    jacobian: Jacobian,
+    /// Length of the steps of ros2 and linear_euler
+    #[arg(long, value_name = "TIME", default_value = "1ms")]
+    step: String,
     /// How constraints enter the implicit form: ggl (default), velocity or acceleration; the other solvers take the explicit form
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
@@ -126,6 +133,8 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         relative_tolerance,
         backend: arguments.backend,
         formulation: arguments.formulation,
+        derivatives: arguments.jacobian.into(),
+        fixed_step: positive::<Time>("step", &arguments.step)?,
         steady,
         given: arguments.given,
         signals: arguments.signals,

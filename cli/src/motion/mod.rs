@@ -19,7 +19,7 @@ use analyses::transient::{Cause, Method, Simulation, Start, Trajectory, Transien
 use analyses::{ClosedLoop, Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
-use problem::{Dae, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
+use problem::{Dae, Derivatives, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -31,6 +31,8 @@ const DECAY: f64 = 10.0;
 /// Average step below which a motion is given up, s, and steps that are allowed in any case.
 const SHORTEST_STEP: f64 = 5e-6;
 const FEWEST_STEPS: usize = 2000;
+/// Length of the steps of methods whose steps are all alike, s, where nobody says otherwise: that of many simulators.
+pub const USUAL_STEP: f64 = 1e-3;
 /// The relative tolerance at which absolute tolerances are those that the signals declare.
 const USUAL_TOLERANCE: f64 = 1e-6;
 /// How many coordinates and velocities table and figure show of a mechanism, where the user does not choose.
@@ -63,6 +65,10 @@ pub struct Request {
     pub backend: String,
     /// Name of the formulation, where one is wanted.
     pub formulation: Option<String>,
+    /// Where matrices come from.
+    pub derivatives: Derivatives,
+    /// Length of the steps of methods whose steps are all alike, s.
+    pub fixed_step: f64,
     /// The steady state to start from, where one is wanted.
     pub steady: Option<plan::Request>,
     /// `SIGNAL=VALUE` as typed: replaces values of the start, and inputs.
@@ -122,11 +128,15 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let mut transient = Transient::new(&plant, request.times.iter().copied().filter(|t| *t <= end).collect());
     transient.options = IntegrationOptions {
         relative_tolerance: request.relative_tolerance,
-        absolute_tolerance_factor: absolute_factor(request.relative_tolerance, explicit || system.constraints().is_empty()),
+        absolute_tolerance_factor: request.relative_tolerance / USUAL_TOLERANCE,
         max_step,
+        fixed_step: request.fixed_step,
+        derivatives: request.derivatives,
         max_steps: most_steps(&transient.times),
         ..IntegrationOptions::default()
     };
+    // of multipliers that stabilize, rounding leaves no more than their declared tolerance
+    transient.algebraic_factor = Some((request.relative_tolerance / USUAL_TOLERANCE).max(1.0));
     transient.ends = condition::conditions(&request.until, &plant)?;
     transient.ends.extend(ends);
     transient.breaks = plant.breaks();
@@ -138,7 +148,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let beside = beside(request.keep.as_deref(), &plant);
     transient.record = (0..n).map(Variable::Unknown).chain(rates).chain(recorded.variables.iter().chain(&beside).copied()).collect();
     let began = Instant::now();
-    let simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
+    let mut simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
     if let Some(near) = simulation.near_singular {
         warnings.push(format!(
@@ -150,8 +160,9 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let accounts = account::account(&simulation, system);
     let told_columns = 2 * n + nu..2 * n + nu + recorded.variables.len();
     let mut signals = simulation.trajectory.signals[told_columns.clone()].to_vec();
-    let mut columns = simulation.trajectory.columns[told_columns.clone()].to_vec();
-    let kept = if request.keep.is_some() { kept(&simulation.trajectory, told_columns) } else { Trajectory::default() };
+    let kept = if request.keep.is_some() { kept(&simulation.trajectory, told_columns.clone()) } else { Trajectory::default() };
+    // long recordings are moved, not copied
+    let mut columns: Vec<Vec<f64>> = simulation.trajectory.columns.drain(told_columns).collect();
     for &(at, which) in &recorded.accounts {
         signals.insert(at, account::signals()[which].clone());
         columns.insert(at, accounts.columns[which].clone());
@@ -204,15 +215,6 @@ fn kept(all: &Trajectory, told: Range<usize>) -> Trajectory {
 fn most_steps(times: &[f64]) -> usize {
     let longest = times.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
     (longest / SHORTEST_STEP) as usize + FEWEST_STEPS
-}
-
-/// What multiplies absolute tolerances.
-///
-/// Those of the implicit form with constraints are not tightened: the rounding of a closed loop over a short step is all that a tighter tolerance of the
-/// stabilizing multipliers would ask for.
-fn absolute_factor(relative_tolerance: f64, follows: bool) -> f64 {
-    let factor = relative_tolerance / USUAL_TOLERANCE;
-    if follows { factor } else { factor.max(1.0) }
 }
 
 fn formulation(name: Option<&str>) -> Result<Formulation, Failure> {

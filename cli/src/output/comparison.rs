@@ -7,6 +7,9 @@ use super::{Kind, Options, Results, Writer, csv};
 use serde_json::json;
 use std::io;
 
+/// A cell without entry.
+pub const NONE: &str = "–";
+
 /// One method at one tolerance.
 #[derive(Clone, Debug)]
 pub struct Row {
@@ -14,8 +17,12 @@ pub struct Row {
     pub backend: String,
     /// Form of the problem that it took.
     pub form: String,
+    /// Where its matrices came from; [`NONE`] where there is nothing to choose.
+    pub jacobian: &'static str,
     /// Relative tolerance; NaN where the method has none to choose.
     pub relative_tolerance: f64,
+    /// Length of all steps, s; NaN where the method chooses it.
+    pub step: f64,
     /// Name of the ending.
     pub ending: String,
     /// Why it did not reach its goal.
@@ -82,7 +89,7 @@ impl Results for Comparison {
 
 /// A cell of a number that may not be there.
 fn cell(value: f64, digits: usize) -> String {
-    if value.is_finite() { format!("{value:.digits$e}") } else { "–".to_owned() }
+    if value.is_finite() { format!("{value:.digits$e}") } else { NONE.to_owned() }
 }
 
 /// One line per row, causes of failures below.
@@ -94,7 +101,9 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
     let titles = [
         "backend",
         "form",
+        "Jacobian",
         "rtol",
+        "step ms",
         "wall ms",
         "spread",
         "× real",
@@ -107,17 +116,19 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
         "energy",
         "constraints",
     ];
-    let rows: Vec<[String; 14]> = comparison
+    let rows: Vec<[String; 16]> = comparison
         .rows
         .iter()
         .map(|r| {
             [
                 r.backend.clone(),
                 r.form.clone(),
+                r.jacobian.to_owned(),
                 cell(r.relative_tolerance, 0),
+                if r.step.is_finite() { number(1e3 * r.step) } else { NONE.to_owned() },
                 number(1e3 * r.wall),
                 format!("{:.0} %", 100.0 * r.spread),
-                if r.real_time_factor.is_finite() { format!("{:.0}", r.real_time_factor) } else { "–".to_owned() },
+                if r.real_time_factor.is_finite() { format!("{:.0}", r.real_time_factor) } else { NONE.to_owned() },
                 r.steps.to_string(),
                 r.rejected.to_string(),
                 r.residuals.to_string(),
@@ -130,11 +141,11 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
         })
         .collect();
     // columns without any entry are left out
-    let kept: Vec<usize> = (0..titles.len()).filter(|&c| c < 2 || rows.iter().any(|r| r[c] != "–")).collect();
+    let kept: Vec<usize> = (0..titles.len()).filter(|&c| c < 2 || rows.iter().any(|r| r[c] != NONE)).collect();
     let width = |c: usize| rows.iter().map(|r| r[c].chars().count()).chain([titles[c].chars().count()]).max().unwrap_or(0);
     let line = |cells: &dyn Fn(usize) -> String| {
         let texts = kept.iter().map(|&c| match c {
-            0 | 1 => format!("{:<width$}", cells(c), width = width(c)),
+            0..=2 => format!("{:<width$}", cells(c), width = width(c)),
             _ => format!("{:>width$}", cells(c), width = width(c)),
         });
         texts.collect::<Vec<_>>().join("  ")
@@ -157,7 +168,7 @@ pub(super) fn write_json(comparison: &Comparison, _: &Options, out: &mut dyn io:
         .iter()
         .map(|r| {
             json!({
-                "backend": r.backend, "form": r.form, "rtol": r.relative_tolerance, "ending": r.ending, "because": r.because,
+                "backend": r.backend, "form": r.form, "jacobian": r.jacobian, "rtol": r.relative_tolerance, "step_s": r.step, "ending": r.ending, "because": r.because,
                 "wall_s": r.wall, "spread": r.spread, "real_time_factor": r.real_time_factor, "steps": r.steps, "rejected": r.rejected,
                 "residuals": r.residuals, "jacobians": r.jacobians, "linear_solves": r.solves, "error": r.error,
                 "energy_drift": r.energy_drift, "constraint_drift": r.constraint_drift,
@@ -178,7 +189,9 @@ pub(super) fn write_csv(comparison: &Comparison, _: &Options, out: &mut dyn io::
     table.write_record([
         "backend",
         "form",
+        "jacobian",
         "rtol",
+        "step_s",
         "ending",
         "wall_s",
         "spread",
@@ -193,11 +206,12 @@ pub(super) fn write_csv(comparison: &Comparison, _: &Options, out: &mut dyn io::
         "constraint_drift",
     ])?;
     for r in &comparison.rows {
-        let words = [r.backend.clone(), r.form.clone(), csv::cell(r.relative_tolerance), r.ending.clone()];
+        let care = [r.relative_tolerance, r.step].map(csv::cell);
+        let words = [r.backend.clone(), r.form.clone(), r.jacobian.to_owned()].into_iter().chain(care).chain([r.ending.clone()]);
         let numbers = [r.wall, r.spread, r.real_time_factor].map(csv::cell);
         let counts = [r.steps, r.rejected, r.residuals, r.jacobians, r.solves].map(|n| n.to_string());
         let errors = [r.error, r.energy_drift, r.constraint_drift].map(csv::cell);
-        table.write_record(words.into_iter().chain(numbers).chain(counts).chain(errors))?;
+        table.write_record(words.chain(numbers).chain(counts).chain(errors))?;
     }
     table.flush()
 }

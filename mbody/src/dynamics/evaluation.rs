@@ -5,9 +5,10 @@
 
 use super::System;
 use super::form::{Form, Formulation};
-use crate::algorithm::{energy, kinematics, rnea::rnea};
+use crate::algorithm::{aba::aba, energy, kinematics, rnea::rnea};
 use crate::constraint::{Level, Moment, RowValue, apply_wrench};
 use crate::force::{Effort, Energy, Evaluated};
+use crate::model::Model;
 use crate::scalar::{Family, Make, SystemScalar};
 use crate::spatial::{Pose, Wrench};
 use crate::stage::Workspace;
@@ -88,19 +89,61 @@ pub struct Account<S> {
     pub elements: Energy<S>,
 }
 
+/// Hands out `N(q) v`, joint by joint, kept for independent coordinates.
+#[inline]
+fn for_each_rate<S: SystemScalar>(model: &Model, q: &[S], v: &[S], mut put: impl FnMut(usize, S)) {
+    let mut row = 0;
+    for body in model.bodies.iter().skip(1) {
+        let mut rates = [S::zero(); 7];
+        body.joint.rates(&q[body.q.clone()], &v[body.v.clone()], &mut rates[..body.q.len()]);
+        for (k, rate) in body.q.clone().zip(rates) {
+            if model.layout.independent_q.get(row) == Some(&k) {
+                put(row, rate);
+                row += 1;
+            }
+        }
+    }
+}
+
 impl<S: SystemScalar> Evaluation<S> {
     /// Fills the kinematic stages from y and ẏ.
     fn stages(&mut self, system: &System) {
+        self.motion(system);
+        self.accelerations(system);
+    }
+
+    /// Fills the stages of coordinates and velocities from y.
+    fn motion(&mut self, system: &System) {
         let (model, w) = (&system.model, &mut self.tree);
         let (nq, nv) = (model.layout.nq(), model.layout.nv());
         let (q, rest) = self.y.split_at(nq);
         model.layout.expand_q(q, &mut w.position.q);
         model.layout.expand_v(&rest[..nv], &mut w.velocity.v);
-        model.layout.expand_v(&self.yd[nq..nq + nv], &mut w.acceleration.vd);
         kinematics::position(model, &mut w.position);
         kinematics::world(model, &w.position, &mut w.world);
         kinematics::velocity(model, &w.position, &mut w.velocity);
+    }
+
+    /// Fills the stage of accelerations from ẏ.
+    fn accelerations(&mut self, system: &System) {
+        let (model, w) = (&system.model, &mut self.tree);
+        let (nq, nv) = (model.layout.nq(), model.layout.nv());
+        model.layout.expand_v(&self.yd[nq..nq + nv], &mut w.acceleration.vd);
         kinematics::acceleration(model, &w.position, &w.velocity, &mut w.acceleration);
+    }
+
+    /// Writes `(q̇, v̇)` of a tree without constraints, couplings and states at `(time, y, u)`, by the articulated-body algorithm.
+    ///
+    /// Elements see the accelerations of some earlier point, on which their forces must not depend. Allocates nothing.
+    pub(super) fn forward(&mut self, system: &System, form: &Form, rates: &mut [S]) {
+        self.motion(system);
+        self.elements(system, form);
+        let (model, w) = (&system.model, &mut self.tree);
+        w.tau.copy_from_slice(&self.joint_efforts);
+        aba(model, w);
+        let nq = model.layout.nq();
+        for_each_rate(model, &w.position.q, &w.velocity.v, |row, rate| rates[row] = rate);
+        rates[nq..].copy_from_slice(&w.acceleration.vd);
     }
 
     /// Evaluates residual and outputs at `(time, y, yd, u)`. Allocates nothing.
@@ -120,20 +163,8 @@ impl<S: SystemScalar> Evaluation<S> {
         }
         let (kinematic, rest) = self.residual.split_at_mut(nq);
         model.layout.reduce(&mut w.tau, &mut rest[..nv]);
-        // q̇ − N(q) v, joint by joint, kept for independent coordinates
-        let mut row = 0;
         let v = if self.corrected.is_empty() { &w.velocity.v } else { &self.corrected };
-        for body in model.bodies.iter().skip(1) {
-            let mut rates = [S::zero(); 7];
-            let (q, v) = (&w.position.q[body.q.clone()], &v[body.v.clone()]);
-            body.joint.rates(q, v, &mut rates[..body.q.len()]);
-            for (k, rate) in body.q.clone().zip(rates) {
-                if model.layout.independent_q.get(row) == Some(&k) {
-                    kinematic[row] = self.yd[row] - rate;
-                    row += 1;
-                }
-            }
-        }
+        for_each_rate(model, &w.position.q, v, |row, rate| kinematic[row] = self.yd[row] - rate);
     }
 
     /// Evaluates all constraints: wrenches of the multipliers, rows, corrected velocities.

@@ -72,6 +72,13 @@ impl TreePlant {
         e
     }
 
+    /// Writes the rates of coordinates and velocities of a tree without constraints and states.
+    pub(super) fn forward_at(&mut self, at: At<'_>, rates: &mut [f64]) {
+        let e = f64::pick_mut(&mut self.evaluations);
+        load(e, at);
+        e.forward(&self.system, &self.form, rates);
+    }
+
     /// The evaluation of plain numbers, as the last point left it.
     pub(super) fn evaluation_mut(&mut self) -> &mut Evaluation<f64> {
         f64::pick_mut(&mut self.evaluations)
@@ -266,5 +273,10 @@ impl Explicit for TreePlant {
     fn solve_rates(&mut self, time: f64, y: &mut [f64], u: &[f64], yd: &mut [f64]) -> Result<(), EvalError> {
         let system = &self.system;
         self.explicit.get_or_insert_with(|| Box::new(ExplicitSolver::new(system))).solve(time, y, u, yd)
+    }
+
+    fn rates_along(&mut self, at: At<'_>, seeds: &Seeds, solved: &mut Matrix) -> Result<(), EvalError> {
+        let system = &self.system;
+        self.explicit.get_or_insert_with(|| Box::new(ExplicitSolver::new(system))).solve_along(at, seeds, solved)
     }
 }

@@ -6,8 +6,7 @@
 //! Fr = kr d + cr ḋ        Fn = kl λ + cl λ̇           N = Fr cos γ + Fn sin γ
 //! V_sx = v_P·x − re Ω + λ̇x                            re = a − η d
 //! V_sy = v_P·y + λ̇ cos γ − ḋ sin γ                    κ = −V_sx/V*,  tan α = −V_sy/V*,  V* = √((v_P·x)² + V0²)
-//! 0 = Fn cos γ − Fr sin γ − Fy(κ, α, γ, N*)           0 = kx λx + cx λ̇x − Fx(κ, α, γ, N*)
-//! N* = N for λ̇ = 0
+//! 0 = Fn cos γ − Fr sin γ − Fy(κ, α, γ, N)            0 = kx λx + cx λ̇x − Fx(κ, α, γ, N)
 //! ```
 //!
 //! λ, λx displacement of the patch against the rim, along the axle to the left and forward, m; d radial compression, m; S, a, b
@@ -17,10 +16,9 @@
 //! load the springs by themselves: in a balanced turn λ stays small and d is that of the force along the wheel plane. A tire that can lift
 //! has `b(δ) Fr sin γ` in its row: in the air λ returns to zero in the time cl/kl.
 //!
-//! Friction takes the load N* without what the creep λ̇ itself adds through the dampers. With N the row would have the slope
-//! `cl cos γ + cr sin²γ/cos γ + (cr − cl) (Fy/N) sin γ` in λ̇, which is negative where the friction of a leaning wheel is used up and cr > cl: then a patch that
-//! snaps back without load is a second solution (the paradox of Painlevé). With N* the slope is `cl cos γ + cr sin²γ/cos γ − ∂Fy/∂V_sy/cos γ`, positive up to the peak of Fy.
-//! Steady states and motions upright are the same.
+//! In λ̇ the row has the slope `cl cos γ + cr sin²γ/cos γ + (cr − cl) (Fy/N) sin γ − ∂Fy/∂V_sy/cos γ`. Where a leaning wheel uses its friction up, Fy/N near
+//! 1 to the side of the lean and cr > cl, it can vanish (as in the paradox of Painlevé): the patch may then snap back without load, and a motion ends
+//! there. It stays positive up to the peak of Fy where `cl/cr > (μ t − t²)/(1 + μ t)`, t = tan |γ|, which is 0.17 at most for μ = 1.
 //!
 //! Source: our formulation of the idea of R. Lot, A motorcycle tire model for dynamic simulations, Meccanica 39 (2004) 207–220.
 //! Range: camber below 75 degrees; cl > 0 keeps the row of λ regular at vanishing load.
@@ -85,16 +83,13 @@ impl Deformable {
         let lever = meridian.a - radial;
         let arm = -(frame.e.scaled(lever) + wheel.axis.scaled(meridian.b - lateral));
         let v = wheel.velocity_at(arm);
-        let approach = -v.dot(frame.k) * per_cos;
-        let radial_rate = approach - lateral_rate * sin * per_cos;
+        let radial_rate = -(v.dot(frame.k) + lateral_rate * sin) * per_cos;
 
         // forces of the carcass, along rim and road
         let (along_radius, along_axle) = (self.radial.force(radial, radial_rate), self.lateral.force(lateral, lateral_rate));
         let hold = tire.contact.hold(wheel.penetration);
         let load = tire.contact.load(hold, along_radius * cos + along_axle * sin);
         let elastic_side_force = along_axle * cos - along_radius * sin * hold;
-        let held = self.radial.force(radial, approach) * cos + self.lateral.force(lateral, S::zero()) * sin;
-        let friction_load = tire.contact.load(hold, held);
 
         // friction where the tire touches
         let effective_radius = tire.effective_radius.at(meridian.a, radial, load);
@@ -107,7 +102,7 @@ impl Deformable {
         }
         let slide_y = speed_y + lateral_rate * cos - radial_rate * sin;
         let slip = Slip {
-            load: friction_load,
+            load,
             lateral: -slide_y * per_reference,
             longitudinal: -slide_x * per_reference,
             camber: frame.camber,

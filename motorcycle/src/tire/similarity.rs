@@ -51,7 +51,7 @@ mod tests {
     fn peaked() -> AnyTireLaw {
         let parameters = "{ nominal_load: 1300, longitudinal: { stiffness: { constant: 20 }, peak: { constant: 1.2 }, shape: 1.5 }, \
             lateral: { cornering_stiffness: { constant: 14 }, camber_stiffness: { constant: 0.9 }, peak: { constant: 1.25 }, \
-            cornering_shape: 1.3, camber_shape: 0.7 }, aligning: { pneumatic_trail: 0.025, twisting_moment: 0.015 } }";
+            cornering_shape: 1.2, camber_shape: 0.7 }, aligning: { pneumatic_trail: 0.025, twisting_moment: 0.015 } }";
         // through a plain value: in it a choice is a mapping with one key, as in descriptions
         let value: serde_json::Value = serde_yaml::from_str(parameters).expect("parameters");
         AnyTireLaw::new(serde_json::from_value::<CompactMotorcycleParameters>(value).expect("parameters").law().expect("a law"))

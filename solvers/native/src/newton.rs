@@ -7,16 +7,23 @@
 //! Halving, not interpolation: where f grows steeply along p, a fitted parabola jumps over the useful λ to one a tenth as long, and
 //! the iteration crawls (Brown's almost-linear system from its published start shows it).
 //!
+//! The simplified method keeps the matrix from one iteration to the next as long as full steps reduce the residual fivefold: linear convergence
+//! for the price of residuals alone (C. T. Kelley, *Iterative Methods for Linear and Nonlinear Equations*, SIAM 1995, section 5.4.1).
+//!
 //! Source: J. E. Dennis, R. B. Schnabel, *Numerical Methods for Unconstrained Optimization and Nonlinear Equations*, SIAM 1996,
 //! section 6.3.1; the treatment of bounds follows KINSOL.
 
 use crate::elimination::Elimination;
+use crate::factorization::Factorization;
+use problem::contract::finite;
 use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, EvalError, Matrix};
 
 /// Share of the predicted decrease that a step must bring (α).
 const ARMIJO: f64 = 1e-4;
 /// Part of the way to a bound that a step may go.
 const BOUND_SHARE: f64 = 0.9;
+/// Share of the residual that a step with a kept matrix may leave.
+const FAST: f64 = 0.2;
 /// Longest step, in units of the scaled distance of the start from the origin.
 const MAX_STEP: f64 = 1e3;
 
@@ -25,7 +32,18 @@ const MAX_STEP: f64 = 1e3;
 /// Allocates in the first solve of a size only, so a sweep runs without.
 #[derive(Debug, Default)]
 pub struct Newton {
+    matrices: Matrices,
     work: Option<Work>,
+}
+
+/// How long a matrix serves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Matrices {
+    /// One iteration.
+    #[default]
+    Fresh,
+    /// As long as it leads on fast.
+    Kept,
 }
 
 /// Everything that depends on the size of the problem.
@@ -34,6 +52,7 @@ struct Work {
     f: Vec<f64>,
     jacobian: Matrix,
     elimination: Elimination,
+    factors: Factorization,
     step: Vec<f64>,
     trial: Vec<f64>,
     trial_f: Vec<f64>,
@@ -52,11 +71,19 @@ impl Newton {
     pub fn new() -> Self {
         Self::default()
     }
+
+    /// The simplified method, which keeps a matrix while that leads on fast.
+    pub fn simplified() -> Self {
+        Self { matrices: Matrices::Kept, work: None }
+    }
 }
 
 impl AlgebraicMethod for Newton {
     fn name(&self) -> &'static str {
-        "newton"
+        match self.matrices {
+            Matrices::Fresh => "newton",
+            Matrices::Kept => "newton_simplified",
+        }
     }
 
     /// Improves `x` until the largest |fᵢ| / `equation_scale`ᵢ is below the tolerance.
@@ -73,7 +100,7 @@ impl AlgebraicMethod for Newton {
         }
         let work = self.work.get_or_insert_with(|| Work::new(size));
         let mut tally = Tally::default();
-        let (ending, residual) = work.run(problem, x, options, &mut tally);
+        let (ending, residual) = work.run(problem, x, options, self.matrices, &mut tally);
         let Tally { iterations, residuals, jacobians } = tally;
         AlgebraicOutcome { ending, iterations, residuals, jacobians, residual }
     }
@@ -86,6 +113,7 @@ impl Work {
             f: zeros(),
             jacobian: Matrix::zeros(size, size),
             elimination: Elimination::new(size),
+            factors: Factorization::new(size),
             step: zeros(),
             trial: zeros(),
             trial_f: zeros(),
@@ -98,6 +126,7 @@ impl Work {
         problem: &mut dyn AlgebraicProblem,
         x: &mut [f64],
         options: &AlgebraicOptions,
+        matrices: Matrices,
         tally: &mut Tally,
     ) -> (AlgebraicEnding, f64) {
         let max_step = MAX_STEP * scaled_square(x, problem.unknown_scale()).max(x.len() as f64).sqrt();
@@ -120,12 +149,15 @@ impl Work {
                 return (AlgebraicEnding::Singular, residual);
             }
             self.step.iter_mut().for_each(|step| *step = -*step);
-            let moved = match self.search(problem, x, options.step_tolerance, max_step, tally) {
+            let mut moved = match self.search(problem, x, options.step_tolerance, max_step, tally) {
                 Ok(moved) => moved,
                 Err(ending) => return (ending, residual),
             };
             x.copy_from_slice(&self.trial);
             residual = largest(&self.trial_f, problem.equation_scale());
+            if matrices == Matrices::Kept && residual > options.residual_tolerance {
+                (residual, moved) = self.coast(problem, x, (residual, moved), options, tally);
+            }
             if residual <= options.residual_tolerance {
                 return (AlgebraicEnding::Converged, residual);
             }
@@ -136,6 +168,43 @@ impl Work {
                 return (AlgebraicEnding::MaxIterations, residual);
             }
         }
+    }
+
+    /// Goes on with the last matrix as long as each full step leaves a fifth of the residual at most; returns residual and last change.
+    fn coast(
+        &mut self,
+        problem: &mut dyn AlgebraicProblem,
+        x: &mut [f64],
+        (mut residual, mut moved): (f64, f64),
+        options: &AlgebraicOptions,
+        tally: &mut Tally,
+    ) -> (f64, f64) {
+        let jacobian = &self.jacobian;
+        let rows = problem.equation_scale();
+        if self.factors.factorize(problem.unknown_scale(), |i, j| jacobian[(i, j)] / rows[i]).is_err() {
+            return (residual, moved);
+        }
+        while residual > options.residual_tolerance && tally.iterations < options.max_iterations {
+            for ((step, f), row) in self.step.iter_mut().zip(&self.trial_f).zip(problem.equation_scale()) {
+                *step = -f / row;
+            }
+            self.factors.solve(&mut self.step);
+            if room(problem.bounds(), x, &self.step, 1.0) < 1.0 {
+                break;
+            }
+            self.trial.iter_mut().zip(&*x).zip(&self.step).for_each(|((trial, x), step)| *trial = x + step);
+            (tally.residuals, tally.iterations) = (tally.residuals + 1, tally.iterations + 1);
+            let evaluated = problem.residual(&self.trial, &mut self.f).and_then(|()| finite(&self.f));
+            let after = evaluated.map_or(f64::INFINITY, |()| largest(&self.f, problem.equation_scale()));
+            if after > FAST * residual {
+                break;
+            }
+            moved = relative_length(&self.step, x, problem.unknown_scale());
+            residual = after;
+            x.copy_from_slice(&self.trial);
+            self.trial_f.copy_from_slice(&self.f);
+        }
+        (residual, moved)
     }
 
     /// Fills f and J at `x`.
@@ -197,14 +266,6 @@ fn check(problem: &dyn AlgebraicProblem, x: &[f64]) {
     for scale in [problem.unknown_scale(), problem.equation_scale()] {
         assert_eq!(scale.len(), size, "one scale per unknown and per equation");
         assert!(scale.iter().all(|&scale| scale > 0.0 && scale.is_finite()), "scales are positive numbers");
-    }
-}
-
-/// `Ok` where every entry is finite, else the recoverable error that names the first row which is not.
-fn finite(values: &[f64]) -> Result<(), EvalError> {
-    match values.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(equation) => Err(EvalError::Recoverable { equation }),
     }
 }
 

@@ -9,6 +9,14 @@ use problem::{AlgebraicMethod, AlgebraicOptions};
 #[test]
 fn published_solutions() {
     published_solutions_are_reached(&mut Newton::new());
+    published_solutions_are_reached(&mut Newton::simplified());
+}
+
+#[test]
+fn kept_matrices_save_jacobians() {
+    let options = AlgebraicOptions::default();
+    let [full, kept] = [Newton::new(), Newton::simplified()].map(|mut newton| broyden_tridiagonal().solve(&mut newton, &options).0);
+    assert!(full.converged() && kept.converged() && kept.jacobians < full.jacobians, "{full:?} {kept:?}");
 }
 
 #[test]
@@ -24,11 +32,13 @@ fn units() {
 #[test]
 fn bounds() {
     bounds_are_respected(&mut Newton::new());
+    bounds_are_respected(&mut Newton::simplified());
 }
 
 #[test]
 fn failures() {
     failures_are_named(&mut Newton::new());
+    failures_are_named(&mut Newton::simplified());
 }
 
 #[test]

@@ -35,6 +35,8 @@ pub trait OdeProblem {
     fn absolute_tolerance(&self) -> &[f64];
     /// Writes f(t, y).
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes ∂f/∂y.
+    fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError>;
     /// Brings y back onto the manifold after an accepted step; does nothing where there is none.
     fn project(&mut self, _time: f64, _y: &mut [f64]) -> Result<(), EvalError> {
         Ok(())
@@ -60,10 +62,14 @@ pub struct IntegrationOptions {
     pub first_step: Option<f64>,
     /// Longest step, s; infinite where there is no bound.
     pub max_step: f64,
+    /// Length of the steps of methods whose steps are all alike, s; the others do not read it.
+    pub fixed_step: f64,
     /// Largest number of steps between two sampling times.
     pub max_steps: usize,
     /// Whether algebraic unknowns are part of the error test.
     pub algebraic: AlgebraicErrors,
+    /// Where matrices come from: obeyed by who makes the problem.
+    pub derivatives: Derivatives,
 }
 
 impl Default for IntegrationOptions {
@@ -73,8 +79,10 @@ impl Default for IntegrationOptions {
             absolute_tolerance_factor: 1.0,
             first_step: None,
             max_step: f64::INFINITY,
+            fixed_step: 1e-3,
             max_steps: 100_000,
             algebraic: AlgebraicErrors::Suppressed,
+            derivatives: Derivatives::Exact,
         }
     }
 }
@@ -86,6 +94,25 @@ pub enum AlgebraicErrors {
     Tested,
     /// It does not: multipliers of index-2 systems converge with a lower order than the motion.
     Suppressed,
+}
+
+/// Where the matrices of a problem come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derivatives {
+    /// Exact derivatives of the engine.
+    Exact,
+    /// Difference quotients of residuals or rates, one per column.
+    Differences,
+}
+
+impl Derivatives {
+    /// Name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Differences => "differences",
+        }
+    }
 }
 
 /// What a method should do after a sample was handed out.
@@ -144,6 +171,13 @@ pub struct IntegrationOutcome {
     pub jacobians: usize,
     /// Nonlinear iterations (linear solves).
     pub iterations: usize,
+}
+
+impl IntegrationOutcome {
+    /// The outcome of an integration that has not begun.
+    pub fn nothing_done(ending: IntegrationEnding, time: f64) -> Self {
+        Self { ending, time, steps: 0, rejected: 0, convergence_failures: 0, residuals: 0, jacobians: 0, iterations: 0 }
+    }
 }
 
 /// Receives a sample: time, y and ẏ.

@@ -6,6 +6,7 @@
 //! Everything that enters or leaves a plant is a named [`Signal`] with unit and one sentence.
 
 mod algebraic;
+pub mod contract;
 mod controller;
 mod error;
 mod family;
@@ -22,7 +23,8 @@ pub use controller::{Answer, AnswerAlong, Controller};
 pub use error::EvalError;
 pub use family::{Family, Member, NoMember, Parameter, ParameterId};
 pub use integration::{
-    AlgebraicErrors, DaeMethod, DaeProblem, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink,
+    AlgebraicErrors, DaeMethod, DaeProblem, Derivatives, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod,
+    OdeProblem, Sink,
 };
 pub use matrix::Matrix;
 pub use mode::{ModeRule, Nature, Occurs};

@@ -1,6 +1,6 @@
 //! Capabilities that an integration needs beside the residual: consistent points and explicit rates.
 
-use crate::{EvalError, Plant};
+use crate::{At, EvalError, Matrix, Plant, Seeds};
 
 /// A constraint that does not hold, in mechanical words.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,15 @@ pub trait Explicit: Plant {
     /// # Errors
     /// Where the point cannot be evaluated.
     fn solve_rates(&mut self, time: f64, y: &mut [f64], u: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
+
+    /// Differentiates what [`Explicit::solve_rates`] computes, along directions of the differential unknowns and of the inputs.
+    ///
+    /// `at` is a point that it has completed. Of the seeds, rates and algebraic unknowns are not read. `solved` (unknowns × directions)
+    /// receives derivatives of rates, for algebraic unknowns those of their values.
+    ///
+    /// # Errors
+    /// Where the point cannot be evaluated or its equations have no unique solution.
+    fn rates_along(&mut self, at: At<'_>, seeds: &Seeds, solved: &mut Matrix) -> Result<(), EvalError>;
 }
 
 /// A plant that can be integrated in time.

@@ -11,10 +11,10 @@
 //! section “Mathematical considerations”; E. Eich, *Convergence results for a coordinate projection method applied to mechanical systems
 //! with algebraic constraints*, SIAM J. Numer. Anal. 30, 1993, 1467–1482.
 
-use crate::guard::finite;
-use crate::raw::cvode::{Family, Memory, Request, Statistics, System};
-use crate::request::{acceptable, check_times, coincide, nothing_done};
-use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink};
+use crate::raw::cvode::{Family, Memory, System};
+use crate::raw::integrator::{Request, Statistics};
+use problem::contract::{acceptable, check_times, coincide, finite};
+use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem, Sink};
 
 /// CVODE with one of its two families of formulas.
 ///
@@ -23,6 +23,8 @@ pub struct Cvode {
     family: Family,
     name: &'static str,
     work: Option<Work>,
+    /// Matrix as the problem writes it, then copied to CVODE.
+    jacobian: Matrix,
 }
 
 /// Everything that depends on the size of the problem.
@@ -37,12 +39,12 @@ struct Work {
 impl Cvode {
     /// Adams–Moulton formulas.
     pub fn adams() -> Self {
-        Self { family: Family::Adams, name: "cvode_adams", work: None }
+        Self { family: Family::Adams, name: "cvode_adams", work: None, jacobian: Matrix::default() }
     }
 
     /// Backward differentiation formulas.
     pub fn bdf() -> Self {
-        Self { family: Family::Bdf, name: "cvode", work: None }
+        Self { family: Family::Bdf, name: "cvode", work: None, jacobian: Matrix::default() }
     }
 }
 
@@ -70,12 +72,15 @@ impl OdeMethod for Cvode {
         assert_eq!(y.len(), size, "one start value per unknown");
         check_times(times);
         if !acceptable(options) {
-            return nothing_done(IntegrationEnding::Refused, times[0]);
+            return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
         let family = self.family;
         let work = self.work.take().filter(|work| work.sample.len() == size).unwrap_or_else(|| Work::new(size, family));
         let work = self.work.insert(work);
-        let bridge = Bridge { problem, residuals: 0 };
+        if self.jacobian.columns() != size {
+            self.jacobian = Matrix::zeros(size, size);
+        }
+        let bridge = Bridge { problem, jacobian: &mut self.jacobian, residuals: 0, jacobians: 0 };
         let absolute = bridge.problem.absolute_tolerance();
         assert_eq!(absolute.len(), size, "one tolerance per unknown");
         for (tolerance, absolute) in work.memory.tolerance_mut().iter_mut().zip(absolute) {
@@ -147,7 +152,7 @@ impl Run<'_> {
     /// Work so far.
     fn counted(&self) -> Statistics {
         let since = if self.started { self.work.memory.statistics() } else { Statistics::default() };
-        sum(&self.before, &since)
+        self.before.sum(since)
     }
 
     /// Integrates to `time` and brings the point onto the manifold. False where the next piece has to start anew.
@@ -190,26 +195,18 @@ impl Run<'_> {
             rejected: counted.rejected,
             convergence_failures: counted.convergence_failures,
             residuals: self.bridge.residuals,
-            jacobians: counted.jacobians,
+            jacobians: self.bridge.jacobians,
             iterations: counted.iterations,
         }
-    }
-}
-
-fn sum(a: &Statistics, b: &Statistics) -> Statistics {
-    Statistics {
-        steps: a.steps + b.steps,
-        rejected: a.rejected + b.rejected,
-        convergence_failures: a.convergence_failures + b.convergence_failures,
-        iterations: a.iterations + b.iterations,
-        jacobians: a.jacobians + b.jacobians,
     }
 }
 
 /// The problem as CVODE calls it back.
 struct Bridge<'a> {
     problem: &'a mut dyn OdeProblem,
+    jacobian: &'a mut Matrix,
     residuals: usize,
+    jacobians: usize,
 }
 
 impl Bridge<'_> {
@@ -223,6 +220,14 @@ impl Bridge<'_> {
 impl System for Bridge<'_> {
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError> {
         self.evaluate(time, y, yd)
+    }
+
+    fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError> {
+        self.jacobians += 1;
+        self.problem.jacobian(time, y, self.jacobian)?;
+        self.jacobian.as_slice().chunks_exact(y.len()).try_for_each(finite)?;
+        jacobian.copy_from_slice(self.jacobian.as_slice());
+        Ok(())
     }
 
     fn correction(&mut self, time: f64, y: &[f64], correction: &mut [f64]) -> Result<(), EvalError> {

@@ -48,14 +48,6 @@ impl Guard {
     }
 }
 
-/// `Ok` where every entry is finite, else the recoverable error that names the first row which is not.
-pub fn finite(values: &[f64]) -> Result<(), EvalError> {
-    match values.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(equation) => Err(EvalError::Recoverable { equation }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,11 +59,5 @@ mod tests {
         assert_eq!(guard.run(|| Err(EvalError::Recoverable { equation: 3 })), 1);
         assert_eq!(guard.run(|| Err(EvalError::Fatal { equation: 4 })), -1);
         assert_eq!(guard.release(), Some(EvalError::Fatal { equation: 4 }));
-    }
-
-    #[test]
-    fn a_value_that_is_not_finite_is_recoverable_and_names_its_row() {
-        assert_eq!(finite(&[0.0, -1.0]), Ok(()));
-        assert_eq!(finite(&[0.0, f64::NAN, f64::INFINITY]), Err(EvalError::Recoverable { equation: 1 }));
     }
 }

@@ -14,9 +14,9 @@
 //! LLNL, section “Mathematical considerations”; K. E. Brenan, S. L. Campbell, L. R. Petzold, *Numerical Solution of Initial-Value
 //! Problems in Differential-Algebraic Equations*, SIAM 1996, section 5.2.
 
-use crate::guard::finite;
-use crate::raw::ida::{Memory, Request, System};
-use crate::request::{acceptable, check_times, coincide, nothing_done};
+use crate::raw::ida::{Memory, System};
+use crate::raw::integrator::Request;
+use problem::contract::{acceptable, check_times, coincide, finite};
 use problem::{
     AlgebraicErrors, DaeMethod, DaeProblem, EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, Sink,
 };
@@ -60,23 +60,23 @@ impl DaeMethod for Ida {
         assert!(y.len() == size && yd.len() == size, "one start value and one rate per unknown");
         check_times(times);
         if !acceptable(options) {
-            return nothing_done(IntegrationEnding::Refused, times[0]);
+            return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
         // the start itself, and whatever cannot be told from it
         let at_start = times.iter().take_while(|&&time| size == 0 || coincide(times[0], time)).count();
         for &time in &times[..at_start] {
             if sink(time, y, yd) == Flow::Stop {
-                return nothing_done(IntegrationEnding::Stopped, time);
+                return IntegrationOutcome::nothing_done(IntegrationEnding::Stopped, time);
             }
         }
         let later = &times[at_start..];
         if later.is_empty() {
-            return nothing_done(IntegrationEnding::Finished, times[at_start - 1]);
+            return IntegrationOutcome::nothing_done(IntegrationEnding::Finished, times[at_start - 1]);
         }
         let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size));
         let work = self.work.insert(work);
         if !work.start(problem, times, (y, yd), options) {
-            return nothing_done(IntegrationEnding::Refused, times[0]);
+            return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
         work.run(problem, times[0], later, (y, yd), sink)
     }
@@ -94,16 +94,16 @@ impl Work {
         yd.copy_from_slice(start.1);
         load(self.memory.tolerance_mut(), problem.absolute_tolerance(), |tolerance| tolerance * options.absolute_tolerance_factor);
         load(self.memory.differential_mut(), problem.differential(), |differential| if differential { 1.0 } else { 0.0 });
-        self.memory.start(&Request {
+        let request = Request {
             time: times[0],
             stop_time: times[times.len() - 1],
             relative_tolerance: options.relative_tolerance,
             first_step: options.first_step.unwrap_or(0.0),
             max_step: options.max_step,
             max_steps: options.max_steps.max(1),
-            suppress_algebraic: options.algebraic == AlgebraicErrors::Suppressed,
             events: problem.event_count(),
-        })
+        };
+        self.memory.start(&request, options.algebraic == AlgebraicErrors::Suppressed)
     }
 
     fn run(

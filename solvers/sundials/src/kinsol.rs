@@ -1,20 +1,27 @@
-//! KINSOL: Newton's method with a line search.
+//! KINSOL: Newton's method with a line search or without, Picard and fixed-point iterations with Anderson acceleration.
 //!
 //! x ← x + λ p with J p = −f. The step is shortened from λ = 1 by quadratic and cubic interpolation until ½‖D f‖² has
 //! decreased enough (α = 10⁻⁴) without stopping too early (β = 0.9); D holds the reciprocals of `equation_scale`.
 //!
-//! Source: A. M. Collier, A. C. Hindmarsh, R. Serban, C. S. Woodward, *User Documentation for KINSOL*, LLNL, section
+//! `kinsol_picard` and `kinsol_fixed_point` iterate x ← x − J⁻¹ f(x) with the J of an earlier point (renewed every ten iterations, or that of
+//! the start) and combine the last five changes so that the residual of their linear combination is least. They take no bounds.
+//!
+//! Source: H. F. Walker, P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49, 2011, 1715–1735; A. M. Collier, A. C. Hindmarsh, R. Serban, C. S. Woodward, *User Documentation for KINSOL*, LLNL, section
 //! “Mathematical considerations”; J. E. Dennis, R. B. Schnabel, *Numerical Methods for Unconstrained Optimization and Nonlinear
 //! Equations*, SIAM 1996, algorithm A6.3.1mod.
 
-use crate::guard::finite;
+use crate::raw::dense::Factors;
 use crate::raw::kinsol::{Memory, Request, Stop, System};
+use problem::contract::finite;
 use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, EvalError, Matrix};
 
 pub use crate::raw::kinsol::Strategy;
 
 /// Longest step, in units of the scaled distance of the start from the origin; KINSOL's own default.
 const MAX_STEP: f64 = 1e3;
+
+/// Iterations for which a matrix of the Picard iteration serves; KINSOL 7.1.1 itself asks for one in each.
+const RENEWED: usize = 10;
 
 /// KINSOL with exact dense Jacobians, renewed in every iteration.
 ///
@@ -34,6 +41,8 @@ struct Work {
     f: Vec<f64>,
     /// Best point seen.
     best: Vec<f64>,
+    /// Factors of the Jacobian at the start, for the fixed-point iteration.
+    start: Option<Factors>,
 }
 
 impl Kinsol {
@@ -48,6 +57,8 @@ impl AlgebraicMethod for Kinsol {
         match self.strategy {
             Strategy::LineSearch => "kinsol",
             Strategy::FullStep => "kinsol_newton",
+            Strategy::Picard => "kinsol_picard",
+            Strategy::FixedPoint => "kinsol_fixed_point",
         }
     }
 
@@ -63,7 +74,7 @@ impl AlgebraicMethod for Kinsol {
         if size == 0 {
             return AlgebraicOutcome { ending: AlgebraicEnding::Converged, iterations: 0, residuals: 0, jacobians: 0, residual: 0.0 };
         }
-        let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size));
+        let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size, self.strategy));
         let work = self.work.insert(work);
         work.load(problem, x);
         if outside(problem.bounds(), x) {
@@ -74,8 +85,9 @@ impl AlgebraicMethod for Kinsol {
 }
 
 impl Work {
-    fn new(size: usize) -> Self {
-        Self { memory: Memory::new(size), jacobian: Matrix::zeros(size, size), f: vec![0.0; size], best: vec![0.0; size] }
+    fn new(size: usize, strategy: Strategy) -> Self {
+        let zeros = || vec![0.0; size];
+        Self { memory: Memory::new(size, strategy), jacobian: Matrix::zeros(size, size), f: zeros(), best: zeros(), start: None }
     }
 
     /// Hands start, scales and bounds to KINSOL.
@@ -98,22 +110,40 @@ impl Work {
         strategy: Strategy,
     ) -> AlgebraicOutcome {
         let request = Request {
-            strategy,
             // KINSOL takes zero for "its own default"
-            residual_tolerance: options.residual_tolerance.max(f64::MIN_POSITIVE),
+            // the fixed-point iteration is judged by distances and ends by what was evaluated
+            residual_tolerance: if strategy == Strategy::FixedPoint { 1e-14 } else { options.residual_tolerance.max(f64::MIN_POSITIVE) },
             step_tolerance: options.step_tolerance.max(f64::MIN_POSITIVE),
             max_iterations: options.max_iterations.max(1),
             max_step: max_step(x, problem.unknown_scale()),
         };
         self.best.copy_from_slice(x);
+        let mut jacobians = 0;
+        if strategy == Strategy::FixedPoint {
+            let evaluated = problem.jacobian(x, &mut self.f, &mut self.jacobian).and_then(|()| finite(&self.f));
+            if let Err(error) = evaluated {
+                let ending = AlgebraicEnding::Evaluation(error);
+                return AlgebraicOutcome { ending, iterations: 0, residuals: 0, jacobians: 1, residual: f64::INFINITY };
+            }
+            jacobians = 1;
+            if !self.start.get_or_insert_with(|| Factors::new(x.len())).factorize(self.jacobian.as_slice()) {
+                let residual = largest(&self.f, problem.equation_scale());
+                let ending = if residual <= options.residual_tolerance { AlgebraicEnding::Converged } else { AlgebraicEnding::Singular };
+                return AlgebraicOutcome { ending, iterations: 0, residuals: 0, jacobians, residual };
+            }
+        }
         let mut bridge = Bridge {
             problem,
             jacobian: &mut self.jacobian,
             f: &mut self.f,
             best: &mut self.best,
             best_residual: f64::INFINITY,
+            start: self.start.as_mut(),
+            tolerance: options.residual_tolerance,
+            renewed: if strategy == Strategy::Picard { RENEWED } else { 1 },
+            asked: 0,
             residuals: 0,
-            jacobians: 0,
+            jacobians,
         };
         let report = self.memory.solve(&mut bridge, &request);
         let Bridge { best_residual, residuals, jacobians, .. } = bridge;
@@ -125,6 +155,8 @@ impl Work {
             Stop::MaxIterations => AlgebraicEnding::MaxIterations,
             Stop::Singular => AlgebraicEnding::Singular,
             Stop::NoDecrease => AlgebraicEnding::NoDecrease,
+            // the Picard iteration tells a factorization that failed from an evaluation by no code
+            Stop::Evaluation if strategy == Strategy::Picard && report.error.is_none() => AlgebraicEnding::Singular,
             Stop::Evaluation => report.error.map_or(AlgebraicEnding::NoDecrease, AlgebraicEnding::Evaluation),
         };
         AlgebraicOutcome { ending, iterations: report.iterations, residuals, jacobians, residual: best_residual }
@@ -145,6 +177,11 @@ struct Bridge<'a> {
     f: &'a mut [f64],
     best: &'a mut [f64],
     best_residual: f64,
+    start: Option<&'a mut Factors>,
+    tolerance: f64,
+    /// Iterations for which a matrix serves, and how many were asked for.
+    renewed: usize,
+    asked: usize,
     residuals: usize,
     jacobians: usize,
 }
@@ -162,12 +199,27 @@ impl System for Bridge<'_> {
         Ok(())
     }
 
+    fn fixed_point(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), EvalError> {
+        self.residual(x, g)?;
+        // where the residual is small enough the iteration may end, whatever the distance of its points
+        if self.best_residual <= self.tolerance {
+            g.copy_from_slice(x);
+            return Ok(());
+        }
+        if let Some(factors) = &mut self.start {
+            factors.solve(g);
+        }
+        g.iter_mut().zip(x).for_each(|(g, x)| *g = x - *g);
+        Ok(())
+    }
+
     fn jacobian(&mut self, x: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError> {
-        self.jacobians += 1;
-        self.problem.jacobian(x, self.f, self.jacobian)?;
-        finite(self.f)?;
-        for column in self.jacobian.as_slice().chunks_exact(x.len()) {
-            finite(column)?;
+        self.asked += 1;
+        if (self.asked - 1).is_multiple_of(self.renewed) {
+            self.jacobians += 1;
+            self.problem.jacobian(x, self.f, self.jacobian)?;
+            finite(self.f)?;
+            self.jacobian.as_slice().chunks_exact(x.len()).try_for_each(finite)?;
         }
         jacobian.copy_from_slice(self.jacobian.as_slice());
         Ok(())

@@ -5,15 +5,14 @@
 //! reaches the caller as a panic, and nothing is ever printed.
 
 mod cvode;
-mod erk;
 mod guard;
 mod ida;
 mod kinsol;
 mod raw;
-mod request;
+mod runge_kutta;
 
 pub use cvode::Cvode;
-pub use erk::ExplicitRungeKutta;
 pub use ida::Ida;
 pub use kinsol::{Kinsol, Strategy};
 pub use raw::version;
+pub use runge_kutta::RungeKutta;

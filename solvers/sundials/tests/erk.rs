@@ -1,4 +1,4 @@
-//! The explicit Runge–Kutta method of ARKODE on problems with published or exact solutions.
+//! The Runge–Kutta methods of ARKODE on problems with published or exact solutions.
 
 mod motion;
 
@@ -6,10 +6,10 @@ use motion::*;
 use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, OdeMethod, OdeProblem};
 use std::f64::consts::PI;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use sundials::ExplicitRungeKutta;
+use sundials::RungeKutta;
 
 fn erk(problem: &mut dyn OdeProblem, times: &[f64], start: &[f64], options: &IntegrationOptions) -> Record {
-    record_ode(&mut ExplicitRungeKutta::default(), problem, times, start, options)
+    record_ode(&mut RungeKutta::explicit(), problem, times, start, options)
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn an_event_ends_the_integration_at_its_root() {
 
 #[test]
 fn the_integration_goes_on_after_an_event() {
-    let mut erk = ExplicitRungeKutta::default();
+    let mut erk = RungeKutta::explicit();
     let mut pendulum = Pendulum { projected: true, watched: true };
     let (mut y, mut time) = (Pendulum::START.to_vec(), 0.0);
     for passage in 0..4 {
@@ -99,7 +99,7 @@ fn the_receiver_may_stop() {
     for at in 0..3 {
         let mut y = Oscillator::START;
         let mut seen = 0;
-        let outcome = ExplicitRungeKutta::default().integrate(
+        let outcome = RungeKutta::explicit().integrate(
             &mut Oscillator { watched: false },
             &[0.0, 1.0, 2.0],
             &mut y,
@@ -180,7 +180,7 @@ fn times_that_rounding_separates_have_the_same_state() {
 
 #[test]
 fn a_panic_passes_through_and_leaves_the_integrator_usable() {
-    let mut erk = ExplicitRungeKutta::default();
+    let mut erk = RungeKutta::explicit();
     let mut law = Scalar::decay();
     law.rate = |time, y| if time > 0.5 { panic!("the law has no value here") } else { Ok(-y) };
     let panic =
@@ -192,7 +192,7 @@ fn a_panic_passes_through_and_leaves_the_integrator_usable() {
 
 #[test]
 fn the_start_does_not_remember_the_run_before() {
-    let mut kept = ExplicitRungeKutta::default();
+    let mut kept = RungeKutta::explicit();
     let mut runs = Vec::new();
     for _ in 0..2 {
         let times = Pendulum::times();
@@ -202,4 +202,42 @@ fn the_start_does_not_remember_the_run_before() {
         record_ode(&mut kept, &mut Arenstorf, &[0.0, 1.0], &Arenstorf::START, &tolerance(1e-6));
     }
     assert_eq!(runs[0], runs[1]);
+}
+
+fn dirk(problem: &mut dyn OdeProblem, times: &[f64], start: &[f64], options: &IntegrationOptions) -> Record {
+    record_ode(&mut RungeKutta::implicit(), problem, times, start, options)
+}
+
+#[test]
+fn the_implicit_pair_has_order_five() {
+    let error = |step: f64| {
+        // tight enough for Newton's method, loose enough for the steps
+        let options = IntegrationOptions { first_step: Some(step), max_step: step, ..tolerance(1e-4) };
+        let record = dirk(&mut Oscillator { watched: false }, &[0.0, 10.0], &Oscillator::START, &options).finished(&[0.0, 10.0]);
+        assert_eq!(record.outcome.steps, (10.0 / step).round() as usize);
+        record.deviation(Oscillator::exact)
+    };
+    let order = (error(0.25) / error(0.125)).log2();
+    assert!((4.5..6.5).contains(&order), "{order}");
+}
+
+#[test]
+fn the_implicit_pair_takes_stiff_decay_in_few_steps() {
+    let mut stiff = Scalar::decay();
+    stiff.rate = |time, y| Ok(-1e6 * (y - time.cos()));
+    stiff.slope = |_, _| Ok(-1e6);
+    let record = dirk(&mut stiff, &[0.0, 1.0], &[1.0], &tolerance(1e-6)).finished(&[0.0, 1.0]);
+    assert!((record.y[0] - 1f64.cos()).abs() < 1e-5, "{:?}", record.y);
+    assert!(record.outcome.steps < 200 && record.outcome.jacobians > 0 && record.outcome.iterations > 0, "{:?}", record.outcome);
+}
+
+#[test]
+fn the_implicit_pair_stays_on_the_manifold_and_finds_events() {
+    let times = Pendulum::times();
+    let record = dirk(&mut Pendulum { projected: true, watched: false }, &times, &Pendulum::START, &tolerance(1e-9)).finished(&times);
+    assert!(record.samples.iter().all(|(_, s, _)| (s[0].hypot(s[1]) - 1.0).abs() < 1e-15));
+    assert!(record.deviation(Pendulum::exact) < 1e-6, "{:e}", record.deviation(Pendulum::exact));
+    let record = dirk(&mut Oscillator { watched: true }, &[0.0, 10.0], &Oscillator::START, &tolerance(1e-10));
+    assert_eq!(record.outcome.ending, IntegrationEnding::Event { event: 1, rising: false });
+    assert!((record.outcome.time - 2.0 * PI / 3.0).abs() < 1e-8, "{}", record.outcome.time);
 }

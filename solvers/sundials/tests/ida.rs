@@ -6,7 +6,7 @@ use motion::*;
 use problem::{AlgebraicErrors, DaeMethod, DaeProblem, EvalError, Flow, IntegrationEnding, IntegrationOptions, Matrix};
 use std::f64::consts::PI;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use sundials::{ExplicitRungeKutta, Ida};
+use sundials::{Ida, RungeKutta};
 
 const OSCILLATOR: (&[f64], &[f64]) = (&[0.0, 1.0], &[1.0, 0.0]);
 
@@ -95,7 +95,7 @@ fn both_integrators_agree() {
     let (y, yd) = Pendulum::IMPLICIT_START;
     let implicit = ida(&mut Pendulum { projected: false, watched: false }, &times, (&y, &yd), &tolerance(1e-10)).finished(&times);
     let explicit = record_ode(
-        &mut ExplicitRungeKutta::default(),
+        &mut RungeKutta::explicit(),
         &mut Pendulum { projected: true, watched: false },
         &times,
         &Pendulum::START,

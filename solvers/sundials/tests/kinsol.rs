@@ -4,7 +4,7 @@
 mod classic;
 
 use classic::*;
-use problem::{AlgebraicMethod, AlgebraicOptions};
+use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use sundials::{Kinsol, Strategy};
 
@@ -19,6 +19,24 @@ fn full_steps_reach_the_easy_ones() {
     for system in [rosenbrock(), powell_singular(), broyden_tridiagonal()] {
         let (outcome, _) = system.solve(&mut kinsol, &AlgebraicOptions::default());
         assert!(outcome.converged(), "{outcome:?}");
+    }
+}
+
+#[test]
+fn accelerated_iterations_reach_the_easy_ones_with_few_matrices() {
+    for strategy in [Strategy::Picard, Strategy::FixedPoint] {
+        let mut kinsol = Kinsol::new(strategy);
+        for _ in 0..2 {
+            let (outcome, x) = broyden_tridiagonal().solve(&mut kinsol, &AlgebraicOptions::default());
+            assert!(outcome.converged() && outcome.jacobians <= 3, "{} {outcome:?}", kinsol.name());
+            let (newton, exact) = broyden_tridiagonal().solve(&mut Kinsol::default(), &AlgebraicOptions::default());
+            assert!(newton.jacobians > outcome.jacobians && x.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-8), "{newton:?}");
+        }
+        assert_eq!(ending_of(parallel_lines(), &mut kinsol).0, AlgebraicEnding::Singular);
+        assert!(matches!(ending_of(undefined_at_the_start(), &mut kinsol).0, AlgebraicEnding::Evaluation(_)));
+        assert!(!matches!(ending_of(no_real_root(), &mut kinsol).0, AlgebraicEnding::Converged));
+        let panic = catch_unwind(AssertUnwindSafe(|| ending_of(panics_away_from_the_start(), &mut kinsol))).unwrap_err();
+        assert_eq!(panic.downcast_ref::<&str>(), Some(&"the law has no value here"));
     }
 }
 

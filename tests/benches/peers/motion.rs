@@ -17,10 +17,11 @@ fn simulate(plant: &mut TreePlant, implicit: bool, relative_tolerance: f64) -> S
     start.hold(plant, &[(at("chassis.forward_speed"), 4.0), (at("chassis.roll_rate"), 0.05)]);
     let inputs = Constant::defaults(plant);
     let record = everything(plant).into_iter().take(1).collect();
-    let transient = Transient { start, times: vec![0.0, 5.0], options, record, ends: Vec::new(), breaks: Vec::new() };
+    let transient =
+        Transient { start, times: vec![0.0, 5.0], options, algebraic_factor: None, record, ends: Vec::new(), breaks: Vec::new() };
     match implicit {
         true => transient.run(plant, &inputs, Method::Dae(&mut sundials::Ida::default())),
-        false => transient.run(plant, &inputs, Method::Ode(&mut sundials::ExplicitRungeKutta::default())),
+        false => transient.run(plant, &inputs, Method::Ode(&mut sundials::RungeKutta::explicit())),
     }
     .expect("the bicycle rolls")
 }

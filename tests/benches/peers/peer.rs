@@ -37,6 +37,7 @@ const BUDGETS: &[(&str, f64)] = &[
     ("modes moto11, one of 200 speeds", 180_000.0),
     ("map moto11, 600 trims", 50_000_000.0),
     ("second of moto11, IDA", 5_000_000.0),
+    ("second of moto11, dopri5", 1_100_000.0),
     ("second of moto11, erk", 1_100_000.0),
     ("second of moto11, CVODE", 1_100_000.0),
     ("lane change of gsxr1000, IDA", 100_000_000.0),

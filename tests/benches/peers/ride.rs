@@ -47,7 +47,7 @@ fn lane_change(clock: &mut Clock, name: &str, implicit: bool) {
     let of = |name: &str| vehicle.system.inputs().iter().position(|i| i.signal.name == name).map_or(0.0, |k| u[k]);
     let inputs = Driven::new(plant.inputs().iter().map(|i| of(&i.signal.name)).collect());
     let mut run = || {
-        let (mut ida, mut erk) = (sundials::Ida::default(), sundials::ExplicitRungeKutta::default());
+        let (mut ida, mut erk) = (sundials::Ida::default(), sundials::RungeKutta::explicit());
         let method = if implicit { Method::Dae(&mut ida) } else { Method::Ode(&mut erk) };
         transient.run(&mut plant, &inputs, method).unwrap_or_else(|e| panic!("{e}"))
     };
@@ -61,6 +61,7 @@ fn lane_change(clock: &mut Clock, name: &str, implicit: bool) {
 pub fn run(clock: &mut Clock) {
     let (relative, absolute) = TOLERANCES;
     pulse(clock, "second of moto11, IDA", By::Ida(relative, absolute));
+    pulse(clock, "second of moto11, dopri5", By::Dopri5(relative, absolute));
     pulse(clock, "second of moto11, erk", By::Erk(relative, absolute));
     pulse(clock, "second of moto11, CVODE", By::Bdf(relative, absolute));
     lane_change(clock, "lane change of gsxr1000, IDA", true);

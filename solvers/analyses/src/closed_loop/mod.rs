@@ -81,6 +81,7 @@ struct Directions {
     seeds: Seeds,
     residual: Matrix,
     outputs: Matrix,
+    solved: Matrix,
 }
 
 impl Directions {
@@ -89,6 +90,7 @@ impl Directions {
             seeds: Seeds::zeros(plant.unknowns().len(), plant.inputs().len(), columns),
             residual: Matrix::zeros(plant.equations().len(), columns),
             outputs: Matrix::zeros(plant.outputs().len(), columns),
+            solved: Matrix::zeros(plant.unknowns().len(), columns),
         }
     }
 }
@@ -311,5 +313,18 @@ impl<P: Explicit> Explicit for ClosedLoop<P> {
         let ny = self.plant.unknowns().len();
         self.wires.iter().for_each(|wire| wire.rates(&mut yd[ny..]));
         self.plant.solve_rates(time, &mut y[..ny], &self.u, &mut yd[..ny])
+    }
+    fn rates_along(&mut self, at: At<'_>, seeds: &Seeds, solved: &mut Matrix) -> Result<(), EvalError> {
+        self.command_along(at, seeds)?;
+        let ny = self.plant.unknowns().len();
+        let d = &mut self.directions;
+        let at = At { time: at.time, y: &at.y[..ny], yd: &at.yd[..ny], u: &self.u };
+        self.plant.rates_along(at, &d.seeds, &mut d.solved)?;
+        for k in 0..seeds.columns() {
+            let (of_plant, own) = solved.column_mut(k).split_at_mut(ny);
+            of_plant.copy_from_slice(d.solved.column(k));
+            self.wires.iter().for_each(|wire| wire.rates_along(k, own));
+        }
+        Ok(())
     }
 }

@@ -153,6 +153,11 @@ impl Wire {
         xd[self.offset..self.offset + self.rates.len()].copy_from_slice(&self.rates);
     }
 
+    /// The same along direction `k`.
+    pub(super) fn rates_along(&self, k: usize, xd: &mut [f64]) {
+        xd[self.offset..self.offset + self.rates.len()].copy_from_slice(self.along.rates.column(k));
+    }
+
     /// Writes `ẋ − f` among the rows of all controllers.
     pub(super) fn rows(&self, xd: &[f64], rows: &mut [f64]) {
         for (k, f) in (self.offset..).zip(&self.rates) {

@@ -2,8 +2,9 @@
 
 use super::SharedPlant;
 use super::acting::{Acting, Observer};
+use super::differences::Differences;
 use super::watch::Watch;
-use problem::{EquationKind, EvalError, OdeProblem, Off, ProjectionError, UnknownKind};
+use problem::{At, Derivatives, EquationKind, EvalError, Integrable, Matrix, OdeProblem, Off, ProjectionError, Seeds, UnknownKind};
 
 /// All unknowns of a plant around the states of its explicit form.
 pub(super) struct Whole<'a, 'p> {
@@ -73,12 +74,38 @@ impl<'a, 'p> Whole<'a, 'p> {
     }
 }
 
+/// What ∂f/∂y comes from.
+enum Tangent {
+    /// One direction per state, and the derivatives of all rates along them.
+    Exact { seeds: Seeds, solved: Matrix },
+    /// Rates beside the point.
+    Differences(Differences),
+}
+
+impl Tangent {
+    fn new(plant: &dyn Integrable, states: &[usize], derivatives: Derivatives) -> Self {
+        match derivatives {
+            Derivatives::Exact => {
+                let (n, m) = (plant.unknowns().len(), states.len());
+                let mut seeds = Seeds::zeros(n, plant.inputs().len(), m);
+                states.iter().enumerate().for_each(|(k, &i)| seeds.y[(i, k)] = 1.0);
+                Self::Exact { seeds, solved: Matrix::zeros(n, m) }
+            }
+            Derivatives::Differences => {
+                let nominal = states.iter().map(|&i| plant.unknowns()[i].nominal).collect();
+                Self::Differences(Differences::new(nominal, states.len()))
+            }
+        }
+    }
+}
+
 /// The explicit form of a plant and its inputs.
 pub(super) struct ExplicitForm<'a, 'p> {
     whole: Whole<'a, 'p>,
     watch: &'a Watch,
     observer: Observer<'a, 'p>,
     absolute_tolerance: Vec<f64>,
+    tangent: Tangent,
     /// Why the last evaluation failed.
     failure: Option<EvalError>,
     /// Rows that the last projection could not satisfy.
@@ -87,12 +114,28 @@ pub(super) struct ExplicitForm<'a, 'p> {
 
 impl<'a, 'p> ExplicitForm<'a, 'p> {
     /// Starts from a consistent point.
-    pub(super) fn new(plant: &'a SharedPlant<'p>, acting: &'a Acting<'a>, watch: &'a Watch, (y, yd): (&[f64], &[f64])) -> Self {
+    pub(super) fn new(
+        plant: &'a SharedPlant<'p>,
+        acting: &'a Acting<'a>,
+        watch: &'a Watch,
+        (y, yd): (&[f64], &[f64]),
+        derivatives: Derivatives,
+    ) -> Self {
         let whole = Whole::new(plant, acting, y, yd);
         let observer = Observer::new(plant, acting);
         let p = plant.borrow();
         let absolute_tolerance = whole.states.iter().map(|&i| p.unknowns()[i].absolute_tolerance).collect();
-        Self { whole, watch, observer, absolute_tolerance, failure: None, off: Vec::new() }
+        let tangent = Tangent::new(&**p, &whole.states, derivatives);
+        drop(p);
+        Self { whole, watch, observer, absolute_tolerance, tangent, failure: None, off: Vec::new() }
+    }
+
+    /// Evaluations of rates for difference quotients.
+    pub(super) fn evaluations(&self) -> usize {
+        match &self.tangent {
+            Tangent::Exact { .. } => 0,
+            Tangent::Differences(differences) => differences.evaluations,
+        }
     }
 
     /// The states among all unknowns.
@@ -130,6 +173,32 @@ impl OdeProblem for ExplicitForm<'_, '_> {
             *rate = self.whole.yd[i];
         }
         completed
+    }
+    fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
+        let whole = &mut self.whole;
+        let differentiated = match &mut self.tangent {
+            Tangent::Exact { seeds, solved } => whole.complete(time, y).map(|_| ()).and_then(|()| {
+                let at = At { time, y: &whole.y, yd: &whole.yd, u: &whole.u };
+                whole.plant.borrow_mut().rates_along(at, seeds, solved)?;
+                for k in 0..whole.states.len() {
+                    for (entry, &i) in jacobian.column_mut(k).iter_mut().zip(&whole.states) {
+                        *entry = solved[(i, k)];
+                    }
+                }
+                Ok(())
+            }),
+            Tangent::Differences(differences) => differences.quotients(
+                y,
+                |y, _, rates| {
+                    whole.complete(time, y)?;
+                    rates.iter_mut().zip(&whole.states).for_each(|(rate, &i)| *rate = whole.yd[i]);
+                    Ok(())
+                },
+                jacobian,
+            ),
+        };
+        self.failure = differentiated.err();
+        differentiated
     }
     fn project(&mut self, time: f64, y: &mut [f64]) -> Result<(), EvalError> {
         let whole = &mut self.whole;

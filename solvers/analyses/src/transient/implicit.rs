@@ -3,8 +3,9 @@
 use super::SharedPlant;
 use super::acting::{Acting, Observer};
 use super::diagnosis::{TOLD, off};
+use super::differences::Differences;
 use super::watch::Watch;
-use problem::{At, DaeProblem, EvalError, Matrix, Off, Seeds};
+use problem::{At, DaeProblem, Derivatives, EvalError, IntegrationOptions, Matrix, Off, Seeds};
 
 /// The implicit form of a plant and its inputs.
 pub(super) struct Implicit<'a, 'p> {
@@ -26,13 +27,23 @@ pub(super) struct Implicit<'a, 'p> {
     seeded: Option<f64>,
     d_residual: Matrix,
     d_outputs: Matrix,
+    differences: Option<Differences>,
+    yd: Vec<f64>,
 }
 
 impl<'a, 'p> Implicit<'a, 'p> {
-    pub(super) fn new(plant: &'a SharedPlant<'p>, acting: &'a Acting<'a>, watch: &'a Watch) -> Self {
+    pub(super) fn new(
+        plant: &'a SharedPlant<'p>,
+        acting: &'a Acting<'a>,
+        watch: &'a Watch,
+        options: &IntegrationOptions,
+        algebraic_factor: f64,
+    ) -> Self {
         let observer = Observer::new(plant, acting);
         let p = plant.borrow();
         let (ny, nf, nu, nz) = (p.unknowns().len(), p.equations().len(), p.inputs().len(), p.outputs().len());
+        // the method multiplies all of them by the factor of the options
+        let share = algebraic_factor / options.absolute_tolerance_factor.max(f64::MIN_POSITIVE);
         let mut seeds = Seeds::zeros(ny, nu, ny);
         (0..ny).for_each(|i| seeds.y[(i, i)] = 1.0);
         Self {
@@ -41,7 +52,7 @@ impl<'a, 'p> Implicit<'a, 'p> {
             watch,
             observer,
             differential: p.unknowns().iter().map(|u| u.differential).collect(),
-            absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance).collect(),
+            absolute_tolerance: p.unknowns().iter().map(|u| u.absolute_tolerance * if u.differential { 1.0 } else { share }).collect(),
             nominal: p.equations().iter().map(|e| e.nominal).collect(),
             u: vec![0.0; nu],
             outputs: vec![0.0; nz],
@@ -51,6 +62,9 @@ impl<'a, 'p> Implicit<'a, 'p> {
             seeded: None,
             d_residual: Matrix::zeros(nf, ny),
             d_outputs: Matrix::zeros(nz, ny),
+            differences: (options.derivatives == Derivatives::Differences)
+                .then(|| Differences::new(p.unknowns().iter().map(|u| u.nominal).collect(), nf)),
+            yd: vec![0.0; ny],
         }
     }
 
@@ -62,6 +76,32 @@ impl<'a, 'p> Implicit<'a, 'p> {
             }
             self.seeded = Some(c);
         }
+    }
+
+    /// Evaluations of the residual for difference quotients.
+    pub(super) fn evaluations(&self) -> usize {
+        self.differences.as_ref().map_or(0, |differences| differences.evaluations)
+    }
+
+    /// The matrix from residuals beside the point.
+    fn quotients(
+        &mut self,
+        (time, c): (f64, f64),
+        (y, yd): (&[f64], &[f64]),
+        differences: &mut Differences,
+        jacobian: &mut Matrix,
+    ) -> Result<(), EvalError> {
+        let mut beside = std::mem::take(&mut self.yd);
+        let evaluate = |y: &[f64], (j, step): (usize, f64), residual: &mut [f64]| {
+            beside.copy_from_slice(yd);
+            if self.differential[j] {
+                beside[j] += c * step;
+            }
+            self.residual(time, y, &beside, residual)
+        };
+        let evaluated = differences.quotients(y, evaluate, jacobian);
+        self.yd = beside;
+        evaluated
     }
 
     /// Why the last evaluation failed, if it did.
@@ -99,6 +139,11 @@ impl DaeProblem for Implicit<'_, '_> {
         evaluated
     }
     fn jacobian(&mut self, time: f64, c: f64, y: &[f64], yd: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
+        if let Some(mut differences) = self.differences.take() {
+            let evaluated = self.quotients((time, c), (y, yd), &mut differences, jacobian);
+            self.differences = Some(differences);
+            return evaluated;
+        }
         self.seed(c);
         self.acting.at(time, &mut self.u);
         let at = At { time, y, yd, u: &self.u };

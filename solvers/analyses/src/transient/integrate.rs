@@ -26,12 +26,12 @@ pub(super) struct Integration<'a, 'p, 'm> {
 }
 
 impl<'a, 'p, 'm> Integration<'a, 'p, 'm> {
-    /// `spacing` is the shortest distance of two samples.
+    /// Absolute tolerances of algebraic unknowns have a factor of their own; `spacing` is the shortest distance of two samples.
     pub(super) fn new(
         (plant, acting, watch): (&'a SharedPlant<'p>, &'a Acting<'a>, &'a Watch),
         method: Method<'m>,
         (y, yd): (&[f64], &[f64]),
-        options: IntegrationOptions,
+        (options, algebraic_factor): (IntegrationOptions, f64),
         spacing: f64,
     ) -> Self {
         match method {
@@ -40,11 +40,11 @@ impl<'a, 'p, 'm> Integration<'a, 'p, 'm> {
                 // such a step the rounding of a closed loop (1e-17 m) is a correction of 1e-7 m/s, which no iteration resolves, and shorter
                 // steps are worse.
                 let first_step = options.first_step.or(Some(spacing.min(FIRST_STEP)));
-                let form = Form::Implicit(method, Box::new(Implicit::new(plant, acting, watch)));
+                let form = Form::Implicit(method, Box::new(Implicit::new(plant, acting, watch, &options, algebraic_factor)));
                 Self { plant, form, options: IntegrationOptions { first_step, ..options } }
             }
             Method::Ode(method) => {
-                let problem = ExplicitForm::new(plant, acting, watch, (y, yd));
+                let problem = ExplicitForm::new(plant, acting, watch, (y, yd), options.derivatives);
                 let states = vec![0.0; problem.states().len()];
                 let form = Form::Explicit(method, Box::new((problem, Whole::new(plant, acting, y, yd))), states);
                 Self { plant, form, options }
@@ -72,7 +72,9 @@ fn implicitly(
     (y, yd): (&mut [f64], &mut [f64]),
     sink: Sink<'_>,
 ) -> (IntegrationOutcome, Cause) {
-    let outcome = method.integrate(problem, times, (&mut *y, &mut *yd), options, sink);
+    let before = problem.evaluations();
+    let mut outcome = method.integrate(problem, times, (&mut *y, &mut *yd), options, sink);
+    outcome.residuals += problem.evaluations() - before;
     let cause = match (outcome.ending, problem.failure()) {
         (IntegrationEnding::Evaluation(e), _) | (IntegrationEnding::Convergence | IntegrationEnding::ErrorTest, Some(e)) => {
             not_finite(e, plant)
@@ -112,7 +114,9 @@ fn explicitly(
             Flow::Stop
         }
     };
+    let before = problem.evaluations();
     let mut outcome = method.integrate(problem, times, states, options, &mut completed);
+    outcome.residuals += problem.evaluations() - before;
     if let Some(e) = lost {
         outcome.ending = IntegrationEnding::Evaluation(e);
     }

@@ -13,6 +13,7 @@
 
 mod acting;
 mod diagnosis;
+mod differences;
 mod ending;
 mod explicit;
 mod implicit;
@@ -32,8 +33,8 @@ pub use trajectory::{Crossing, Drift, LimitMet, NearSingular, Trajectory, Worst}
 use crate::{Variable, Variables};
 use acting::{Acting, Observer};
 use integrate::Integration;
-use pieces::{Pieces, met, nothing_done};
-use problem::{DaeMethod, Flow, Integrable, IntegrationOptions, IntegrationOutcome, Limit, OdeMethod, Plant};
+use pieces::{Pieces, met};
+use problem::{DaeMethod, Flow, Integrable, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Limit, OdeMethod, Plant};
 use recorder::Recorder;
 use std::cell::RefCell;
 use watch::Watch;
@@ -97,6 +98,10 @@ pub struct Transient {
     pub times: Vec<f64>,
     /// Tolerances and steps.
     pub options: IntegrationOptions,
+    /// What multiplies absolute tolerances of algebraic unknowns; `None`: the same factor as that of all others.
+    ///
+    /// Tightened ones make the last digits of multipliers count; of those that stabilize, rounding of coordinates over a short step leaves few.
+    pub algebraic_factor: Option<f64>,
     /// What is recorded.
     pub record: Vec<Variable>,
     /// Conditions that end it where they are violated. Limits that the plant declares are told and do not end it, unless they stand here.
@@ -148,6 +153,7 @@ impl Transient {
             start: Start::stated(plant),
             times,
             options: IntegrationOptions::default(),
+            algebraic_factor: None,
             record: everything(plant),
             ends: Vec::new(),
             breaks: Vec::new(),
@@ -181,11 +187,12 @@ impl Transient {
         // one more: the time reached, where it lies between two samples
         let mut recorder = Recorder::new(&plant, &acting, &variables, &self.record, self.times.len() + 1);
         let spacing = self.times.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
-        let work = Integration::new((&plant, &acting, &watch), method, (&y, &yd), self.options, spacing);
+        let options = (self.options, self.algebraic_factor.unwrap_or(self.options.absolute_tolerance_factor));
+        let work = Integration::new((&plant, &acting, &watch), method, (&y, &yd), options, spacing);
         let mut pieces = Pieces { samples: &self.times, breaks: self.breaks(inputs), next: 0, times: Vec::with_capacity(self.times.len()) };
         let mut crossings = Vec::new();
         let (ending, statistics) = match self.met_at_start(&plant, &acting, &watch, (&y, &yd)) {
-            Some(ending) => (ending, nothing_done(self.times[0])),
+            Some(ending) => (ending, IntegrationOutcome::nothing_done(IntegrationEnding::Finished, self.times[0])),
             None => pieces.integrate((&plant, &acting, &watch), work, (&mut y, &mut yd), &mut recorder, (&mut crossings, watcher)),
         };
         // what was reached beyond the last sample is kept too

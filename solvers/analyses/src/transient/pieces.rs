@@ -26,12 +26,6 @@ pub(super) fn met(limit: &Limit) -> TransientEnding {
     TransientEnding::Met { name: limit.name.to_string(), signal: limit.signal.clone(), threshold: limit.threshold }
 }
 
-/// The outcome of an integration that has not begun.
-pub(super) fn nothing_done(time: f64) -> IntegrationOutcome {
-    let ending = IntegrationEnding::Finished;
-    IntegrationOutcome { ending, time, steps: 0, rejected: 0, convergence_failures: 0, residuals: 0, jacobians: 0, iterations: 0 }
-}
-
 /// Work of two pieces one after the other.
 fn sum(before: &IntegrationOutcome, piece: &IntegrationOutcome) -> IntegrationOutcome {
     IntegrationOutcome {
@@ -58,7 +52,7 @@ impl Pieces<'_> {
     ) -> (TransientEnding, IntegrationOutcome) {
         let (samples, last) = (self.samples, self.samples[self.samples.len() - 1]);
         let (mut from, mut begin) = (samples[0], samples[0]);
-        let mut total = nothing_done(from);
+        let mut total = IntegrationOutcome::nothing_done(IntegrationEnding::Finished, from);
         loop {
             let until = self.breaks.iter().copied().find(|&b| b > from);
             let end = until.unwrap_or(last);

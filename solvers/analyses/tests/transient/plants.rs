@@ -273,4 +273,21 @@ impl Explicit for Plant {
         self.lasts(time)?;
         (self.rates)(y, u, yd)
     }
+    fn rates_along(&mut self, at: At<'_>, seeds: &Seeds, solved: &mut Matrix) -> Result<(), EvalError> {
+        let step = 1e-6;
+        for k in 0..seeds.columns() {
+            let [above, below] = [step, -step].map(|step| {
+                let mut y: Vec<f64> = at.y.iter().zip(seeds.y.column(k)).map(|(y, d)| y + step * d).collect();
+                let u: Vec<f64> = at.u.iter().zip(seeds.u.column(k)).map(|(u, d)| u + step * d).collect();
+                let mut yd = at.yd.to_vec();
+                (self.rates)(&mut y, &u, &mut yd).map(|()| (y, yd))
+            });
+            let ((above, rates_above), (below, rates_below)) = (above?, below?);
+            for (i, unknown) in self.unknowns.iter().enumerate() {
+                let difference = if unknown.differential { rates_above[i] - rates_below[i] } else { above[i] - below[i] };
+                solved[(i, k)] = difference / (2.0 * step);
+            }
+        }
+        Ok(())
+    }
 }

@@ -1,15 +1,17 @@
-//! One explicit Runge–Kutta integrator of ARKODE of fixed size, with everything that it refers to.
+//! One Runge–Kutta integrator of ARKODE of fixed size, explicit or diagonally implicit, with everything that it refers to.
 //!
-//! `sundials-sys` links ARKODE but generates no bindings for it, so the few functions used are declared here, after
-//! `arkode/arkode.h` and `arkode/arkode_erkstep.h` of SUNDIALS 7.1.1.
+//! `sundials-sys` links ARKODE but generates no bindings for it, so the few functions used are declared here, after `arkode.h`,
+//! `arkode_erkstep.h`, `arkode_arkstep.h` and `arkode_ls.h` of SUNDIALS 7.1.1.
 
 use super::context::Context;
+use super::dense::{DenseSolver, matrix_entries_mut};
+use super::integrator::{count, length};
 use super::vector::{Vector, entries, entries_mut};
 use crate::guard::Guard;
 use problem::{EvalError, IntegrationEnding};
 use std::ffi::{CStr, c_char, c_int, c_long, c_void};
 use std::ptr;
-use sundials_sys::{N_Vector, SUNContext};
+use sundials_sys::{N_Vector, SUNContext, SUNLinearSolver, SUNMatrix};
 
 const ARK_ONE_STEP: c_int = 2;
 const ARK_INTERP_NONE: c_int = -1;
@@ -17,19 +19,29 @@ const ARK_SUCCESS: c_int = 0;
 const ARK_TSTOP_RETURN: c_int = 1;
 const ARK_TOO_MUCH_ACC: c_int = -2;
 const ARK_ERR_FAILURE: c_int = -3;
+const ARK_CONV_FAILURE: c_int = -4;
+const ARK_LSETUP_FAIL: c_int = -6;
+const ARK_LSOLVE_FAIL: c_int = -7;
 const ARK_RHSFUNC_FAIL: c_int = -8;
+const ARK_FIRST_RHSFUNC_ERR: c_int = -9;
 const ARK_REPTD_RHSFUNC_ERR: c_int = -10;
 const ARK_UNREC_RHSFUNC_ERR: c_int = -11;
 const ARK_ILL_INPUT: c_int = -22;
 const ARK_POSTPROCESS_STEP_FAIL: c_int = -37;
 
 type Rates = extern "C" fn(f64, N_Vector, N_Vector, *mut c_void) -> c_int;
+type Jacobian = extern "C" fn(f64, N_Vector, N_Vector, SUNMatrix, *mut c_void, N_Vector, N_Vector, N_Vector) -> c_int;
 type Postprocess = extern "C" fn(f64, N_Vector, *mut c_void) -> c_int;
 
 unsafe extern "C" {
     fn ERKStepCreate(rates: Rates, time: f64, y: N_Vector, context: SUNContext) -> *mut c_void;
     fn ERKStepReInit(memory: *mut c_void, rates: Rates, time: f64, y: N_Vector) -> c_int;
     fn ERKStepSetTableName(memory: *mut c_void, table: *const c_char) -> c_int;
+    fn ARKStepCreate(explicit: Option<Rates>, implicit: Option<Rates>, time: f64, y: N_Vector, context: SUNContext) -> *mut c_void;
+    fn ARKStepReInit(memory: *mut c_void, explicit: Option<Rates>, implicit: Option<Rates>, time: f64, y: N_Vector) -> c_int;
+    fn ARKStepSetTableName(memory: *mut c_void, implicit: *const c_char, explicit: *const c_char) -> c_int;
+    fn ARKodeSetLinearSolver(memory: *mut c_void, solver: SUNLinearSolver, matrix: SUNMatrix) -> c_int;
+    fn ARKodeSetJacFn(memory: *mut c_void, jacobian: Option<Jacobian>) -> c_int;
     fn ARKodeReset(memory: *mut c_void, time: f64, y: N_Vector) -> c_int;
     fn ARKodeSVtolerances(memory: *mut c_void, relative: f64, absolute: N_Vector) -> c_int;
     fn ARKodeSetInterpolantType(memory: *mut c_void, kind: c_int) -> c_int;
@@ -42,6 +54,8 @@ unsafe extern "C" {
     fn ARKodeEvolve(memory: *mut c_void, time: f64, y: N_Vector, reached: *mut f64, task: c_int) -> c_int;
     fn ARKodeGetCurrentStep(memory: *mut c_void, step: *mut f64) -> c_int;
     fn ARKodeGetNumErrTestFails(memory: *mut c_void, count: *mut c_long) -> c_int;
+    fn ARKodeGetNumNonlinSolvIters(memory: *mut c_void, count: *mut c_long) -> c_int;
+    fn ARKodeGetNumStepSolveFails(memory: *mut c_void, count: *mut c_long) -> c_int;
     fn ARKodeFree(memory: *mut *mut c_void);
 }
 
@@ -49,8 +63,19 @@ unsafe extern "C" {
 pub trait System {
     /// Writes f(t, y).
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes ∂f/∂y, column after column.
+    fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
     /// Finishes a step that passed the error test; it may move y.
     fn accept(&mut self, time: f64, y: &mut [f64]) -> Result<(), EvalError>;
+}
+
+/// A pair of formulas, by the name that ARKODE knows it by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Table {
+    /// An explicit pair.
+    Explicit(&'static CStr),
+    /// A diagonally implicit pair, its stages solved by Newton's method.
+    Implicit(&'static CStr),
 }
 
 /// What became of one step.
@@ -66,6 +91,8 @@ pub enum Step {
 /// Owner of one integrator and of all objects that it refers to.
 pub struct Memory {
     raw: *mut c_void,
+    table: Table,
+    _dense: Option<DenseSolver>,
     y: Vector,
     tolerance: Vector,
     context: Context,
@@ -82,25 +109,39 @@ struct Call<'a> {
 }
 
 impl Memory {
-    /// An integrator for `size` unknowns, `size` above zero, with the embedded pair that ARKODE knows by the name `table`.
-    pub fn new(size: usize, table: &CStr) -> Self {
+    /// An integrator for `size` unknowns, `size` above zero.
+    pub fn new(size: usize, table: Table) -> Self {
         assert!(size > 0, "a system of equations has at least one unknown");
         let context = Context::new();
         let y = Vector::zeros(&context, size);
         let tolerance = Vector::zeros(&context, size);
-        // SAFETY: context and vectors are alive and are owned by the result.
-        let raw = unsafe {
-            let raw = ERKStepCreate(rates, 0.0, y.raw(), context.raw());
-            assert!(!raw.is_null(), "out of memory while creating an ARKODE integrator");
-            accept(ERKStepSetTableName(raw, table.as_ptr()), &context);
+        // SAFETY: context, vectors, matrix and linear solver are alive and are owned by the result.
+        let (raw, dense) = unsafe {
+            let (raw, dense) = match table {
+                Table::Explicit(name) => {
+                    let raw = ERKStepCreate(rates, 0.0, y.raw(), context.raw());
+                    assert!(!raw.is_null(), "out of memory while creating an ARKODE integrator");
+                    accept(ERKStepSetTableName(raw, name.as_ptr()), &context);
+                    (raw, None)
+                }
+                Table::Implicit(name) => {
+                    let raw = ARKStepCreate(None, Some(rates), 0.0, y.raw(), context.raw());
+                    assert!(!raw.is_null(), "out of memory while creating an ARKODE integrator");
+                    accept(ARKStepSetTableName(raw, name.as_ptr(), c"ARKODE_ERK_NONE".as_ptr()), &context);
+                    let dense = DenseSolver::new(&context, &y);
+                    accept(ARKodeSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
+                    accept(ARKodeSetJacFn(raw, Some(jacobian)), &context);
+                    (raw, Some(dense))
+                }
+            };
             // nothing is interpolated: the polynomials have degree five at most
             accept(ARKodeSetInterpolantType(raw, ARK_INTERP_NONE), &context);
             accept(ARKodeSetPostprocessStepFn(raw, Some(accepted)), &context);
             // they would be printed
             accept(ARKodeSetMaxHnilWarns(raw, -1), &context);
-            raw
+            (raw, dense)
         };
-        Self { raw, y, tolerance, context }
+        Self { raw, table, _dense: dense, y, tolerance, context }
     }
 
     /// Number of unknowns.
@@ -123,7 +164,11 @@ impl Memory {
         self.y.as_mut_slice().copy_from_slice(y);
         // SAFETY: all handles are owned by self; ARKODE copies state and tolerances.
         unsafe {
-            accept(ERKStepReInit(self.raw, rates, time, self.y.raw()), &self.context);
+            let begun = match self.table {
+                Table::Explicit(_) => ERKStepReInit(self.raw, rates, time, self.y.raw()),
+                Table::Implicit(_) => ARKStepReInit(self.raw, None, Some(rates), time, self.y.raw()),
+            };
+            accept(begun, &self.context);
             accept(ARKodeSetInitStep(self.raw, first_step), &self.context);
             accept(ARKodeSetMaxStep(self.raw, max_step), &self.context);
             ARKodeSVtolerances(self.raw, relative_tolerance, self.tolerance.raw()) == ARK_SUCCESS
@@ -156,11 +201,22 @@ impl Memory {
         match (code, error) {
             (ARK_SUCCESS | ARK_TSTOP_RETURN, _) => Step::Taken(reached),
             // ARKODE itself recovers from none of them
-            (ARK_RHSFUNC_FAIL | ARK_REPTD_RHSFUNC_ERR | ARK_UNREC_RHSFUNC_ERR | ARK_POSTPROCESS_STEP_FAIL, Some(error)) => match error {
+            (
+                ARK_RHSFUNC_FAIL
+                | ARK_FIRST_RHSFUNC_ERR
+                | ARK_REPTD_RHSFUNC_ERR
+                | ARK_UNREC_RHSFUNC_ERR
+                | ARK_CONV_FAILURE
+                | ARK_LSETUP_FAIL
+                | ARK_POSTPROCESS_STEP_FAIL,
+                Some(error),
+            ) => match error {
                 EvalError::Recoverable { .. } => Step::Unevaluated(error),
                 EvalError::Fatal { .. } => Step::Failed(IntegrationEnding::Evaluation(error)),
             },
             (ARK_ERR_FAILURE, _) => Step::Failed(IntegrationEnding::ErrorTest),
+            (ARK_CONV_FAILURE, None) => Step::Failed(IntegrationEnding::Convergence),
+            (ARK_LSETUP_FAIL | ARK_LSOLVE_FAIL, _) => Step::Failed(IntegrationEnding::Singular),
             (ARK_ILL_INPUT | ARK_TOO_MUCH_ACC, _) => Step::Failed(IntegrationEnding::Refused),
             (refusal, _) => panic!("ARKODE refused with code {refusal}: {}", self.context.message()),
         }
@@ -168,24 +224,29 @@ impl Memory {
 
     /// Length of the step that was tried last; zero before the first.
     pub fn current_step(&self) -> f64 {
-        let mut step = 0.0;
         // SAFETY: `raw` is a living integrator.
-        unsafe { ARKodeGetCurrentStep(self.raw, &mut step) };
-        step
+        unsafe { length(self.raw, ARKodeGetCurrentStep) }
     }
 
     /// Steps rejected by the error test since the start.
     pub fn rejected(&self) -> usize {
-        let mut count: c_long = 0;
         // SAFETY: `raw` is a living integrator.
-        unsafe { ARKodeGetNumErrTestFails(self.raw, &mut count) };
-        usize::try_from(count).unwrap_or(0)
+        unsafe { count(self.raw, ARKodeGetNumErrTestFails) }
+    }
+
+    /// Iterations of Newton's method since the start, and steps rejected because it failed.
+    pub fn iterations(&self) -> (usize, usize) {
+        match self.table {
+            Table::Explicit(_) => (0, 0),
+            // SAFETY: `raw` is a living integrator.
+            Table::Implicit(_) => unsafe { (count(self.raw, ARKodeGetNumNonlinSolvIters), count(self.raw, ARKodeGetNumStepSolveFails)) },
+        }
     }
 }
 
 impl Drop for Memory {
     fn drop(&mut self) {
-        // SAFETY: created by ERKStepCreate and freed once, before the objects that it refers to.
+        // SAFETY: created by ERKStepCreate or ARKStepCreate and freed once, before the objects that it refers to.
         unsafe { ARKodeFree(&mut self.raw) }
     }
 }
@@ -200,6 +261,22 @@ extern "C" fn rates(time: f64, y: N_Vector, yd: N_Vector, call: *mut c_void) -> 
     let (call, y, yd) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries_mut(yd)) };
     let system = &mut *call.system;
     call.guard.run(|| system.rates(time, y, yd))
+}
+
+extern "C" fn jacobian(
+    time: f64,
+    y: N_Vector,
+    _yd: N_Vector,
+    matrix: SUNMatrix,
+    call: *mut c_void,
+    _: N_Vector,
+    _: N_Vector,
+    _: N_Vector,
+) -> c_int {
+    // SAFETY: ARKODE passes the pointer set in `step`, a serial vector and the dense matrix, and leaves them alone meanwhile.
+    let (call, y, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), matrix_entries_mut(matrix)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.jacobian(time, y, matrix))
 }
 
 extern "C" fn accepted(time: f64, y: N_Vector, call: *mut c_void) -> c_int {

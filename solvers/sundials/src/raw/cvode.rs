@@ -1,28 +1,29 @@
 //! One CVODE integrator of fixed size, with everything that it refers to.
 
 use super::context::Context;
-use super::dense::DenseSolver;
-use super::stuck::Stuck;
+use super::dense::{DenseSolver, matrix_entries_mut};
+use super::integrator::{self, Request, Statistics, count, length};
 use super::vector::{Vector, entries, entries_mut};
-use crate::guard::{FATAL, Guard};
 use problem::{EvalError, IntegrationEnding};
-use std::ffi::{c_int, c_long, c_void};
+use std::ffi::{c_int, c_void};
 use std::{ptr, slice};
 use sundials_sys::{
     CV_ADAMS, CV_BDF, CV_CONV_FAILURE, CV_ERR_FAILURE, CV_FIRST_RHSFUNC_ERR, CV_ILL_INPUT, CV_LSETUP_FAIL, CV_LSOLVE_FAIL, CV_NORMAL,
     CV_PROJFUNC_FAIL, CV_REPTD_PROJFUNC_ERR, CV_REPTD_RHSFUNC_ERR, CV_RHSFUNC_FAIL, CV_ROOT_RETURN, CV_RTFUNC_FAIL, CV_SUCCESS,
     CV_TOO_CLOSE, CV_TOO_MUCH_ACC, CV_TOO_MUCH_WORK, CV_TSTOP_RETURN, CV_UNREC_RHSFUNC_ERR, CVode, CVodeCreate, CVodeFree,
-    CVodeGetCurrentStep, CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumJacEvals, CVodeGetNumNonlinSolvIters,
-    CVodeGetNumStepSolveFails, CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances,
-    CVodeSetInitStep, CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn,
-    CVodeSetNonlinearSolver, CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNNonlinSol_FixedPoint,
-    SUNNonlinSolFree, SUNNonlinearSolver,
+    CVodeGetCurrentStep, CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumNonlinSolvIters, CVodeGetNumStepSolveFails,
+    CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances, CVodeSetInitStep, CVodeSetJacFn,
+    CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn, CVodeSetNonlinearSolver,
+    CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNMatrix, SUNNonlinSol_FixedPoint, SUNNonlinSolFree,
+    SUNNonlinearSolver,
 };
 
 /// What CVODE calls back.
 pub trait System {
     /// Writes f(t, y).
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes ∂f/∂y, column after column.
+    fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
     /// Writes what leads from y to the nearest point of the manifold.
     fn correction(&mut self, time: f64, y: &[f64], correction: &mut [f64]) -> Result<(), EvalError>;
     /// Writes the event functions.
@@ -34,41 +35,8 @@ pub trait System {
 pub enum Family {
     /// Adams–Moulton, orders 1 to 12, solved by functional iteration.
     Adams,
-    /// Backward differentiation, orders 1 to 5, solved by Newton's method with a matrix from difference quotients.
+    /// Backward differentiation, orders 1 to 5, solved by Newton's method.
     Bdf,
-}
-
-/// What one integration is asked for, beside the vectors that were written before.
-pub struct Request {
-    /// Time of the start.
-    pub time: f64,
-    /// Time that no step passes.
-    pub stop_time: f64,
-    /// Relative tolerance.
-    pub relative_tolerance: f64,
-    /// First step; zero leaves it to CVODE.
-    pub first_step: f64,
-    /// Longest step.
-    pub max_step: f64,
-    /// Largest number of steps in one advance, above zero.
-    pub max_steps: usize,
-    /// Number of event functions.
-    pub events: usize,
-}
-
-/// What CVODE counted since the start.
-#[derive(Default)]
-pub struct Statistics {
-    /// Steps taken.
-    pub steps: usize,
-    /// Steps rejected by the error test.
-    pub rejected: usize,
-    /// Steps rejected because the nonlinear iteration failed.
-    pub convergence_failures: usize,
-    /// Nonlinear iterations.
-    pub iterations: usize,
-    /// Matrices.
-    pub jacobians: usize,
 }
 
 /// Owner of one CVODE integrator and of all objects that it refers to.
@@ -100,15 +68,7 @@ impl Drop for Solver {
 // live in private fields of this one owner and move together.
 unsafe impl Send for Memory {}
 
-/// What the callbacks find behind the user data pointer while `CVode` runs.
-struct Call<'a> {
-    system: &'a mut dyn System,
-    events: usize,
-    guard: Guard,
-    /// The integrator itself.
-    memory: *mut c_void,
-    stuck: Stuck,
-}
+type Call<'a> = integrator::Call<'a, dyn System + 'a>;
 
 impl Memory {
     /// An integrator for `size` unknowns, `size` above zero.
@@ -126,6 +86,7 @@ impl Memory {
                 Family::Bdf => {
                     let dense = DenseSolver::new(&context, &y);
                     accept(CVodeSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
+                    accept(CVodeSetJacFn(raw, Some(jacobian)), &context);
                     accept(CVodeSetProjFn(raw, Some(correction)), &context);
                     // the estimate of the error stays as it is
                     accept(CVodeSetProjErrEst(raw, 0), &context);
@@ -158,8 +119,7 @@ impl Memory {
 
     /// Begins an integration. False where CVODE does not accept the tolerances.
     pub fn start(&mut self, y: &[f64], request: &Request) -> bool {
-        let max_steps = c_long::try_from(request.max_steps).unwrap_or(c_long::MAX);
-        let events = c_int::try_from(request.events).expect("CVODE counts events with an int");
+        let (max_steps, events) = request.counts();
         self.found.clear();
         self.found.resize(request.events, 0);
         self.y.as_mut_slice().copy_from_slice(y);
@@ -179,7 +139,7 @@ impl Memory {
 
     /// Integrates to `time` or to what ends the integration before, and returns the time reached. A panic of the system goes on here.
     pub fn advance(&mut self, system: &mut dyn System, time: f64) -> (f64, Result<(), IntegrationEnding>) {
-        let mut call = Call { system, events: self.found.len(), guard: Guard::default(), memory: self.raw, stuck: Stuck::default() };
+        let mut call = Call::new(system, self.found.len(), self.raw);
         // where CVODE refuses the call it reports no time
         let mut reached = self.time();
         // SAFETY: all handles are owned by self; `call` outlives CVode and is forgotten by CVODE right after it.
@@ -204,30 +164,21 @@ impl Memory {
 
     /// What CVODE counted since the start.
     pub fn statistics(&self) -> Statistics {
-        let count = |get: unsafe extern "C" fn(*mut c_void, *mut c_long) -> c_int| {
-            let mut count: c_long = 0;
-            // SAFETY: `raw` is a living integrator.
-            unsafe { get(self.raw, &mut count) };
-            usize::try_from(count).unwrap_or(0)
-        };
-        Statistics {
-            steps: count(CVodeGetNumSteps),
-            rejected: count(CVodeGetNumErrTestFails),
-            convergence_failures: count(CVodeGetNumStepSolveFails),
-            iterations: count(CVodeGetNumNonlinSolvIters),
-            jacobians: match self._solver {
-                Solver::Newton { .. } => count(CVodeGetNumJacEvals),
-                Solver::Functional(_) => 0,
-            },
+        // SAFETY: `raw` is a living integrator.
+        unsafe {
+            Statistics {
+                steps: count(self.raw, CVodeGetNumSteps),
+                rejected: count(self.raw, CVodeGetNumErrTestFails),
+                convergence_failures: count(self.raw, CVodeGetNumStepSolveFails),
+                iterations: count(self.raw, CVodeGetNumNonlinSolvIters),
+            }
         }
     }
 
     /// End of the last step.
     fn time(&self) -> f64 {
-        let mut time = 0.0;
         // SAFETY: `raw` is a living integrator.
-        unsafe { CVodeGetCurrentTime(self.raw, &mut time) };
-        time
+        unsafe { length(self.raw, CVodeGetCurrentTime) }
     }
 
     /// Meaning of a return code of `CVode`.
@@ -256,8 +207,7 @@ impl Memory {
     fn event(&mut self) -> IntegrationEnding {
         // SAFETY: `raw` is a living integrator, and the array has one entry per event function.
         unsafe { CVodeGetRootInfo(self.raw, self.found.as_mut_ptr()) };
-        let event = self.found.iter().position(|&direction| direction != 0).unwrap_or(0);
-        IntegrationEnding::Event { event, rising: self.found[event] > 0 }
+        integrator::event(&self.found)
     }
 }
 
@@ -276,17 +226,25 @@ fn accept(code: c_int, context: &Context) {
 extern "C" fn rates(time: f64, y: N_Vector, yd: N_Vector, call: *mut c_void) -> c_int {
     // SAFETY: CVODE passes the pointer set in `advance` and two different serial vectors that it leaves alone meanwhile.
     let (call, y, yd) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries_mut(yd)) };
-    let mut step = 0.0;
     // SAFETY: the integrator that calls.
-    unsafe { CVodeGetCurrentStep(call.memory, &mut step) };
-    call.stuck.note(time, step);
-    if call.stuck.for_ever() {
-        return FATAL;
-    }
+    let step = unsafe { length(call.memory, CVodeGetCurrentStep) };
+    call.evaluate(time, step, |system| system.rates(time, y, yd))
+}
+
+extern "C" fn jacobian(
+    time: f64,
+    y: N_Vector,
+    _yd: N_Vector,
+    matrix: SUNMatrix,
+    call: *mut c_void,
+    _: N_Vector,
+    _: N_Vector,
+    _: N_Vector,
+) -> c_int {
+    // SAFETY: CVODE passes the pointer set in `advance`, a serial vector and the dense matrix, and leaves them alone meanwhile.
+    let (call, y, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), matrix_entries_mut(matrix)) };
     let system = &mut *call.system;
-    let code = call.guard.run(|| system.rates(time, y, yd));
-    call.stuck.failed |= code != 0;
-    code
+    call.guard.run(|| system.jacobian(time, y, matrix))
 }
 
 extern "C" fn correction(time: f64, y: N_Vector, correction: N_Vector, _tolerance: f64, _error: N_Vector, call: *mut c_void) -> c_int {

@@ -5,7 +5,8 @@ use super::index;
 use super::vector::Vector;
 use std::slice;
 use sundials_sys::{
-    SUNDenseMatrix, SUNDenseMatrix_Data, SUNDenseMatrix_LData, SUNLinSol_Dense, SUNLinSolFree, SUNLinearSolver, SUNMatDestroy, SUNMatrix,
+    SUNDenseMatrix, SUNDenseMatrix_Data, SUNDenseMatrix_LData, SUNLinSol_Dense, SUNLinSolFree, SUNLinSolInitialize, SUNLinSolSetup,
+    SUNLinSolSolve, SUNLinearSolver, SUNMatDestroy, SUNMatrix,
 };
 
 /// Owner of one square dense `SUNMatrix` and of its LU solver.
@@ -47,6 +48,43 @@ impl Drop for DenseSolver {
             SUNLinSolFree(self.solver);
             SUNMatDestroy(self.matrix);
         }
+    }
+}
+
+/// A matrix, its LU factors and vectors to solve with.
+pub struct Factors {
+    dense: DenseSolver,
+    x: Vector,
+    b: Vector,
+}
+
+// SAFETY: SUNDIALS ties nothing to a thread, and all clones of the context live in private fields of this one owner.
+unsafe impl Send for Factors {}
+
+impl Factors {
+    /// For matrices of `size` rows, above zero.
+    pub fn new(size: usize) -> Self {
+        let context = Context::new();
+        let (x, b) = (Vector::zeros(&context, size), Vector::zeros(&context, size));
+        let dense = DenseSolver::new(&context, &x);
+        Self { dense, x, b }
+    }
+
+    /// Factorizes a matrix, column after column. False where it is singular.
+    pub fn factorize(&mut self, matrix: &[f64]) -> bool {
+        // SAFETY: matrix and solver are owned by self, and nobody else reads or writes the entries meanwhile.
+        unsafe {
+            matrix_entries_mut(self.dense.matrix()).copy_from_slice(matrix);
+            SUNLinSolInitialize(self.dense.solver()) == 0 && SUNLinSolSetup(self.dense.solver(), self.dense.matrix()) == 0
+        }
+    }
+
+    /// Replaces b by the solution of A x = b.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        self.b.as_mut_slice().copy_from_slice(b);
+        // SAFETY: all handles are owned by self; a direct solver reads no tolerance.
+        unsafe { SUNLinSolSolve(self.dense.solver(), self.dense.matrix(), self.x.raw(), self.b.raw(), 0.0) };
+        b.copy_from_slice(self.x.as_slice());
     }
 }
 

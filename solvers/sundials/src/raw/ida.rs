@@ -2,9 +2,8 @@
 
 use super::context::Context;
 use super::dense::{DenseSolver, matrix_entries_mut};
-use super::stuck::Stuck;
+use super::integrator::{self, Request, Statistics, count, length};
 use super::vector::{Vector, entries, entries_mut};
-use crate::guard::{FATAL, Guard};
 use problem::{EvalError, IntegrationEnding};
 use std::ffi::{c_int, c_long, c_void};
 use std::{ptr, slice};
@@ -27,39 +26,6 @@ pub trait System {
     fn events(&mut self, time: f64, y: &[f64], yd: &[f64], values: &mut [f64]) -> Result<(), EvalError>;
 }
 
-/// What one integration is asked for, beside the vectors that were written before.
-pub struct Request {
-    /// Time of the start.
-    pub time: f64,
-    /// Time that no step passes.
-    pub stop_time: f64,
-    /// Relative tolerance.
-    pub relative_tolerance: f64,
-    /// First step; zero leaves it to IDA.
-    pub first_step: f64,
-    /// Longest step.
-    pub max_step: f64,
-    /// Largest number of steps in one advance, above zero.
-    pub max_steps: usize,
-    /// Whether the error test leaves out the algebraic unknowns.
-    pub suppress_algebraic: bool,
-    /// Number of event functions.
-    pub events: usize,
-}
-
-/// What IDA counted since the start.
-#[derive(Default)]
-pub struct Statistics {
-    /// Steps taken.
-    pub steps: usize,
-    /// Steps rejected by the error test.
-    pub rejected: usize,
-    /// Steps rejected because the nonlinear iteration failed.
-    pub convergence_failures: usize,
-    /// Nonlinear iterations.
-    pub iterations: usize,
-}
-
 /// Owner of one IDA integrator and of all objects that it refers to.
 pub struct Memory {
     raw: *mut c_void,
@@ -76,15 +42,7 @@ pub struct Memory {
 // live in private fields of this one owner and move together.
 unsafe impl Send for Memory {}
 
-/// What the callbacks find behind the user data pointer while `IDASolve` runs.
-struct Call<'a> {
-    system: &'a mut dyn System,
-    events: usize,
-    guard: Guard,
-    /// The integrator itself.
-    memory: *mut c_void,
-    stuck: Stuck,
-}
+type Call<'a> = integrator::Call<'a, dyn System + 'a>;
 
 impl Memory {
     /// An integrator for `size` unknowns, `size` above zero.
@@ -133,16 +91,17 @@ impl Memory {
     }
 
     /// Begins an integration at the state that was written. False where IDA does not accept the tolerances.
-    pub fn start(&mut self, request: &Request) -> bool {
-        let max_steps = c_long::try_from(request.max_steps).unwrap_or(c_long::MAX);
-        let events = c_int::try_from(request.events).expect("IDA counts events with an int");
+    ///
+    /// `suppress_algebraic` leaves algebraic unknowns out of the error test.
+    pub fn start(&mut self, request: &Request, suppress_algebraic: bool) -> bool {
+        let (max_steps, events) = request.counts();
         self.found.clear();
         self.found.resize(request.events, 0);
         // SAFETY: all handles are owned by self; IDA copies state, tolerances and kinds.
         unsafe {
             accept(IDAReInit(self.raw, request.time, self.y.raw(), self.yd.raw()), &self.context);
             accept(IDASetId(self.raw, self.differential.raw()), &self.context);
-            accept(IDASetSuppressAlg(self.raw, request.suppress_algebraic.into()), &self.context);
+            accept(IDASetSuppressAlg(self.raw, suppress_algebraic.into()), &self.context);
             accept(IDASetStopTime(self.raw, request.stop_time), &self.context);
             accept(IDASetInitStep(self.raw, request.first_step), &self.context);
             accept(IDASetMaxStep(self.raw, request.max_step), &self.context);
@@ -156,8 +115,7 @@ impl Memory {
 
     /// Integrates to `time` or to what ends the integration before, and returns the time reached. A panic of the system goes on here.
     pub fn advance(&mut self, system: &mut dyn System, time: f64) -> (f64, Result<(), IntegrationEnding>) {
-        let guard = Guard::default();
-        let mut call = Call { system, events: self.found.len(), guard, memory: self.raw, stuck: Stuck::default() };
+        let mut call = Call::new(system, self.found.len(), self.raw);
         // where IDA refuses the call it reports no time
         let mut reached = self.time();
         // SAFETY: all handles are owned by self; `call` outlives IDASolve and is forgotten by IDA right after it.
@@ -181,26 +139,21 @@ impl Memory {
 
     /// What IDA counted since the start.
     pub fn statistics(&self) -> Statistics {
-        let count = |get: unsafe extern "C" fn(*mut c_void, *mut c_long) -> c_int| {
-            let mut count: c_long = 0;
-            // SAFETY: `raw` is a living integrator.
-            unsafe { get(self.raw, &mut count) };
-            usize::try_from(count).unwrap_or(0)
-        };
-        Statistics {
-            steps: count(IDAGetNumSteps),
-            rejected: count(IDAGetNumErrTestFails),
-            convergence_failures: count(IDAGetNumStepSolveFails),
-            iterations: count(IDAGetNumNonlinSolvIters),
+        // SAFETY: `raw` is a living integrator.
+        unsafe {
+            Statistics {
+                steps: count(self.raw, IDAGetNumSteps),
+                rejected: count(self.raw, IDAGetNumErrTestFails),
+                convergence_failures: count(self.raw, IDAGetNumStepSolveFails),
+                iterations: count(self.raw, IDAGetNumNonlinSolvIters),
+            }
         }
     }
 
     /// End of the last step.
     fn time(&self) -> f64 {
-        let mut time = 0.0;
         // SAFETY: `raw` is a living integrator.
-        unsafe { IDAGetCurrentTime(self.raw, &mut time) };
-        time
+        unsafe { length(self.raw, IDAGetCurrentTime) }
     }
 
     /// Takes the state at the end of the last step, where IDA has not done so.
@@ -237,8 +190,7 @@ impl Memory {
     fn event(&mut self) -> IntegrationEnding {
         // SAFETY: `raw` is a living integrator, and the array has one entry per event function.
         unsafe { IDAGetRootInfo(self.raw, self.found.as_mut_ptr()) };
-        let event = self.found.iter().position(|&direction| direction != 0).unwrap_or(0);
-        IntegrationEnding::Event { event, rising: self.found[event] > 0 }
+        integrator::event(&self.found)
     }
 
     /// What the linear solver said last: zero, a failure of the Jacobian, or a column without a pivot.
@@ -265,17 +217,9 @@ fn accept(code: c_int, context: &Context) {
 extern "C" fn residual(time: f64, y: N_Vector, yd: N_Vector, residual: N_Vector, call: *mut c_void) -> c_int {
     // SAFETY: IDA passes the pointer set in `advance` and three different serial vectors that it leaves alone meanwhile.
     let (call, y, yd, residual) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries(yd), entries_mut(residual)) };
-    let mut step = 0.0;
     // SAFETY: the integrator that calls.
-    unsafe { IDAGetCurrentStep(call.memory, &mut step) };
-    call.stuck.note(time, step);
-    if call.stuck.for_ever() {
-        return FATAL;
-    }
-    let system = &mut *call.system;
-    let code = call.guard.run(|| system.residual(time, y, yd, residual));
-    call.stuck.failed |= code != 0;
-    code
+    let step = unsafe { length(call.memory, IDAGetCurrentStep) };
+    call.evaluate(time, step, |system| system.residual(time, y, yd, residual))
 }
 
 extern "C" fn jacobian(

@@ -3,22 +3,25 @@
 use super::context::Context;
 use super::dense::{DenseSolver, matrix_entries_mut};
 use super::vector::{Vector, entries, entries_mut};
-use crate::guard::Guard;
+use crate::guard::{FATAL, Guard};
 use problem::EvalError;
 use std::ffi::{c_int, c_long, c_void};
 use std::ptr;
 use sundials_sys::{
-    KIN_FIRST_SYSFUNC_ERR, KIN_INITIAL_GUESS_OK, KIN_LINESEARCH, KIN_LINESEARCH_BCFAIL, KIN_LINESEARCH_NONCONV, KIN_LINSOLV_NO_RECOVERY,
-    KIN_LSETUP_FAIL, KIN_LSOLVE_FAIL, KIN_MAXITER_REACHED, KIN_MXNEWT_5X_EXCEEDED, KIN_NONE, KIN_REPTD_SYSFUNC_ERR, KIN_STEP_LT_STPTOL,
-    KIN_SUCCESS, KIN_SYSFUNC_FAIL, KINCreate, KINFree, KINGetLastLinFlag, KINGetNumNonlinSolvIters, KINInit, KINLS_JACFUNC_ERR,
-    KINSetConstraints, KINSetFuncNormTol, KINSetJacFn, KINSetLinearSolver, KINSetMaxBetaFails, KINSetMaxNewtonStep, KINSetMaxSetupCalls,
-    KINSetNoResMon, KINSetNumMaxIters, KINSetScaledStepTol, KINSetUserData, KINSol, N_Vector, SUNMatrix,
+    KIN_FIRST_SYSFUNC_ERR, KIN_FP, KIN_INITIAL_GUESS_OK, KIN_LINESEARCH, KIN_LINESEARCH_BCFAIL, KIN_LINESEARCH_NONCONV,
+    KIN_LINSOLV_NO_RECOVERY, KIN_LSETUP_FAIL, KIN_LSOLVE_FAIL, KIN_MAXITER_REACHED, KIN_MXNEWT_5X_EXCEEDED, KIN_NONE, KIN_PICARD,
+    KIN_REPTD_SYSFUNC_ERR, KIN_STEP_LT_STPTOL, KIN_SUCCESS, KIN_SYSFUNC_FAIL, KINCreate, KINFree, KINGetLastLinFlag,
+    KINGetNumNonlinSolvIters, KINInit, KINLS_JACFUNC_ERR, KINSetConstraints, KINSetFuncNormTol, KINSetJacFn, KINSetLinearSolver, KINSetMAA,
+    KINSetMaxBetaFails, KINSetMaxNewtonStep, KINSetMaxSetupCalls, KINSetNoResMon, KINSetNumMaxIters, KINSetScaledStepTol, KINSetUserData,
+    KINSol, N_Vector, SUNMatrix,
 };
 
 /// What KINSOL calls back.
 pub trait System {
     /// Writes f(x).
     fn residual(&mut self, x: &[f64], f: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes x − J₀⁻¹ f(x) for the fixed-point iteration.
+    fn fixed_point(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), EvalError>;
     /// Writes ∂f/∂x, column after column.
     fn jacobian(&mut self, x: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
 }
@@ -31,12 +34,17 @@ pub enum Strategy {
     LineSearch,
     /// Full Newton steps, shortened only at bounds and where the residual cannot be evaluated.
     FullStep,
+    /// Picard iteration `x − J⁻¹ f(x)` with Anderson acceleration; J is renewed every ten iterations.
+    Picard,
+    /// Fixed-point iteration `x − J₀⁻¹ f(x)` with Anderson acceleration, J₀ that of the start.
+    FixedPoint,
 }
+
+/// Differences that Anderson acceleration keeps.
+const ANDERSON: c_long = 5;
 
 /// What one solve is asked for; every figure in scaled quantities and above zero.
 pub struct Request {
-    /// How to make progress from far away.
-    pub strategy: Strategy,
     /// Largest scaled residual that counts as solved.
     pub residual_tolerance: f64,
     /// Step below which KINSOL gives up.
@@ -81,6 +89,7 @@ pub struct Memory {
     unknown_weight: Vector,
     equation_weight: Vector,
     constraints: Vector,
+    strategy: Strategy,
     _dense: DenseSolver,
     context: Context,
 }
@@ -92,12 +101,14 @@ unsafe impl Send for Memory {}
 /// What the callbacks find behind the user data pointer while `KINSol` runs.
 struct Call<'a> {
     system: &'a mut dyn System,
+    /// Whether the iteration takes a recoverable error for none.
+    accelerated: bool,
     guard: Guard,
 }
 
 impl Memory {
     /// A solver for `size` unknowns, `size` above zero.
-    pub fn new(size: usize) -> Self {
+    pub fn new(size: usize, strategy: Strategy) -> Self {
         assert!(size > 0, "a system of equations has at least one unknown");
         let context = Context::new();
         let x = Vector::zeros(&context, size);
@@ -106,16 +117,25 @@ impl Memory {
         let raw = unsafe {
             let raw = KINCreate(context.raw());
             assert!(!raw.is_null(), "out of memory while creating a KINSOL solver");
-            accept(KINInit(raw, Some(residual), x.raw()), &context);
-            accept(KINSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
-            accept(KINSetJacFn(raw, Some(jacobian)), &context);
-            // a fresh Jacobian in every iteration; then nobody need watch whether an old one still serves
-            accept(KINSetMaxSetupCalls(raw, 1), &context);
-            accept(KINSetNoResMon(raw, 1), &context);
+            // memory for accelerated iterations is allocated with the rest
+            if matches!(strategy, Strategy::Picard | Strategy::FixedPoint) {
+                accept(KINSetMAA(raw, ANDERSON), &context);
+            }
+            let function = if strategy == Strategy::FixedPoint { fixed_point } else { residual };
+            accept(KINInit(raw, Some(function), x.raw()), &context);
+            if strategy != Strategy::FixedPoint {
+                accept(KINSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
+                accept(KINSetJacFn(raw, Some(jacobian)), &context);
+            }
+            if matches!(strategy, Strategy::LineSearch | Strategy::FullStep) {
+                // a fresh Jacobian in every iteration; then nobody need watch whether an old one still serves
+                accept(KINSetMaxSetupCalls(raw, 1), &context);
+                accept(KINSetNoResMon(raw, 1), &context);
+            }
             raw
         };
         let zeros = || Vector::zeros(&context, size);
-        Self { raw, x, unknown_weight: zeros(), equation_weight: zeros(), constraints: zeros(), _dense: dense, context }
+        Self { raw, x, unknown_weight: zeros(), equation_weight: zeros(), constraints: zeros(), strategy, _dense: dense, context }
     }
 
     /// Number of unknowns.
@@ -146,11 +166,16 @@ impl Memory {
     /// Runs KINSOL from the start that was written. A panic of the system goes on here.
     pub fn solve(&mut self, system: &mut dyn System, request: &Request) -> Report {
         let max_iterations = c_long::try_from(request.max_iterations).unwrap_or(c_long::MAX);
-        let strategy = match request.strategy {
+        let strategy = match self.strategy {
             Strategy::LineSearch => KIN_LINESEARCH,
             Strategy::FullStep => KIN_NONE,
+            Strategy::Picard => KIN_PICARD,
+            Strategy::FixedPoint => KIN_FP,
         };
-        let mut call = Call { system, guard: Guard::default() };
+        let accelerated = matches!(self.strategy, Strategy::Picard | Strategy::FixedPoint);
+        let mut call = Call { system, accelerated, guard: Guard::default() };
+        // the distance of two iterates is what the fixed-point iteration is judged by
+        let weight = if self.strategy == Strategy::FixedPoint { &self.unknown_weight } else { &self.equation_weight };
         // SAFETY: all handles are owned by self; `call` outlives KINSol and is forgotten by KINSOL right after it.
         let (code, iterations) = unsafe {
             accept(KINSetFuncNormTol(self.raw, request.residual_tolerance), &self.context);
@@ -158,10 +183,13 @@ impl Memory {
             accept(KINSetNumMaxIters(self.raw, max_iterations), &self.context);
             accept(KINSetMaxBetaFails(self.raw, max_iterations), &self.context);
             accept(KINSetMaxNewtonStep(self.raw, request.max_step), &self.context);
+            // bounds belong to Newton's method;
             // never a null pointer instead of zeros: 7.1.1 would keep using the vector that it has freed
-            accept(KINSetConstraints(self.raw, self.constraints.raw()), &self.context);
+            if !accelerated {
+                accept(KINSetConstraints(self.raw, self.constraints.raw()), &self.context);
+            }
             accept(KINSetUserData(self.raw, ptr::from_mut(&mut call).cast()), &self.context);
-            let code = KINSol(self.raw, self.x.raw(), strategy, self.unknown_weight.raw(), self.equation_weight.raw());
+            let code = KINSol(self.raw, self.x.raw(), strategy, self.unknown_weight.raw(), weight.raw());
             KINSetUserData(self.raw, ptr::null_mut());
             let mut iterations: c_long = 0;
             KINGetNumNonlinSolvIters(self.raw, &mut iterations);
@@ -210,7 +238,16 @@ extern "C" fn residual(x: N_Vector, f: N_Vector, call: *mut c_void) -> c_int {
     // SAFETY: KINSOL passes the pointer set in `solve` and two different serial vectors that it leaves alone meanwhile.
     let (call, x, f) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), entries_mut(f)) };
     let system = &mut *call.system;
-    call.guard.run(|| system.residual(x, f))
+    let code = call.guard.run(|| system.residual(x, f));
+    if call.accelerated && code != 0 { FATAL } else { code }
+}
+
+extern "C" fn fixed_point(x: N_Vector, g: N_Vector, call: *mut c_void) -> c_int {
+    // SAFETY: KINSOL passes the pointer set in `solve` and two different serial vectors that it leaves alone meanwhile.
+    let (call, x, g) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), entries_mut(g)) };
+    let system = &mut *call.system;
+    let code = call.guard.run(|| system.fixed_point(x, g));
+    if code == 0 { code } else { FATAL }
 }
 
 extern "C" fn jacobian(x: N_Vector, _f: N_Vector, matrix: SUNMatrix, call: *mut c_void, _: N_Vector, _: N_Vector) -> c_int {

@@ -7,8 +7,9 @@
 pub mod arkode;
 mod context;
 pub mod cvode;
-mod dense;
+pub mod dense;
 pub mod ida;
+pub mod integrator;
 pub mod kinsol;
 mod stuck;
 mod vector;

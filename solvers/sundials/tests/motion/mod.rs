@@ -111,6 +111,10 @@ impl OdeProblem for Scalar {
         yd[0] = (self.rate)(time, y[0])?;
         Ok(())
     }
+    fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
+        jacobian[(0, 0)] = (self.slope)(time, y[0])?;
+        Ok(())
+    }
     fn event_count(&self) -> usize {
         usize::from(self.event.is_some())
     }

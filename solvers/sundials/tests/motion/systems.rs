@@ -27,6 +27,10 @@ impl OdeProblem for Oscillator {
         yd.copy_from_slice(&[y[1], -y[0]]);
         Ok(())
     }
+    fn jacobian(&mut self, _time: f64, _y: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
+        jacobian.as_mut_slice().copy_from_slice(&[0.0, -1.0, 1.0, 0.0]);
+        Ok(())
+    }
     fn event_count(&self) -> usize {
         if self.watched { 2 } else { 0 }
     }
@@ -200,6 +204,20 @@ impl OdeProblem for Pendulum {
         sd.copy_from_slice(&[u, v, -x * lambda, -y * lambda - GRAVITY]);
         Ok(())
     }
+    fn jacobian(&mut self, _time: f64, s: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
+        let &[x, y, u, v] = s else { unreachable!() };
+        let square = x * x + y * y;
+        let lambda = (u * u + v * v - GRAVITY * y) / square;
+        let slopes = [-2.0 * x * lambda, -GRAVITY - 2.0 * y * lambda, 2.0 * u, 2.0 * v];
+        for (j, slope) in slopes.iter().enumerate() {
+            jacobian.column_mut(j).copy_from_slice(&[0.0, 0.0, -x * slope / square, -y * slope / square]);
+        }
+        jacobian[(0, 2)] = 1.0;
+        jacobian[(1, 3)] = 1.0;
+        jacobian[(2, 0)] -= lambda;
+        jacobian[(3, 1)] -= lambda;
+        Ok(())
+    }
     fn project(&mut self, _time: f64, s: &mut [f64]) -> Result<(), EvalError> {
         if self.projected {
             let length = s[0].hypot(s[1]);
@@ -250,6 +268,22 @@ impl OdeProblem for Arenstorf {
         sd[1] = v;
         sd[2] = x + 2.0 * v - nu * (x + mu) / earth - mu * (x - nu) / moon;
         sd[3] = y - 2.0 * u - nu * y / earth - mu * y / moon;
+        Ok(())
+    }
+    fn jacobian(&mut self, _time: f64, s: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
+        let (mu, nu) = (0.012277471, 1.0 - 0.012277471);
+        let mut slopes = [[1.0, 0.0], [0.0, 1.0]];
+        for (mass, x) in [(nu, s[0] + mu), (mu, s[0] - nu)] {
+            let (at, distance) = ([x, s[1]], x.hypot(s[1]));
+            for (i, row) in slopes.iter_mut().enumerate() {
+                row[i] -= mass / distance.powi(3);
+                row.iter_mut().zip(at).for_each(|(slope, along)| *slope += 3.0 * mass * at[i] * along / distance.powi(5));
+            }
+        }
+        jacobian.column_mut(0).copy_from_slice(&[0.0, 0.0, slopes[0][0], slopes[1][0]]);
+        jacobian.column_mut(1).copy_from_slice(&[0.0, 0.0, slopes[0][1], slopes[1][1]]);
+        jacobian.column_mut(2).copy_from_slice(&[1.0, 0.0, 0.0, -2.0]);
+        jacobian.column_mut(3).copy_from_slice(&[0.0, 1.0, 2.0, 0.0]);
         Ok(())
     }
 }

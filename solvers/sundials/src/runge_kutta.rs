@@ -1,6 +1,6 @@
-//! ERKStep of ARKODE: an explicit Runge–Kutta pair of high order for explicit systems.
+//! ERKStep and ARKStep of ARKODE: Runge–Kutta pairs for explicit systems, an explicit one of high order and a diagonally implicit one.
 //!
-//! ẏ = f(t, y). y₁ = y₀ + h Σ bᵢ kᵢ with kᵢ = f(t₀ + cᵢ h, y₀ + h Σ aᵢⱼ kⱼ); a step is accepted where the difference to the
+//! ẏ = f(t, y). y₁ = y₀ + h Σ bᵢ kᵢ with kᵢ = f(t₀ + cᵢ h, y₀ + h Σ aᵢⱼ kⱼ), j < i or j ≤ i; a step is accepted where the difference to the
 //! embedded solution, in the norm ‖e‖ = √(Σ (eᵢ/(rtol |yᵢ| + atolᵢ))² / n), is below one. Then `project` brings y₁ back onto the
 //! manifold, and f is evaluated there, so that no step ends where the next one could not begin.
 //!
@@ -9,19 +9,20 @@
 //! events are found by steps: where a sign changes, the root is bracketed by stepping again, not on a polynomial.
 //!
 //! Source: J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*, Numerical Algorithms 53, 2010, 383–396, the
-//! pair of orders 8 and 7; D. R. Reynolds, D. J. Gardner, C. S. Woodward, R. Chinomona, *User Documentation for ARKODE*, LLNL,
+//! pair of orders 8 and 7; C. A. Kennedy, M. H. Carpenter, *Diagonally implicit Runge–Kutta methods for stiff ODEs*, Appl. Numer. Math. 146,
+//! 2019, 221–244, the L-stable pair ESDIRK5(4)7L\[2\]SA₂ of orders 5 and 4; D. R. Reynolds, D. J. Gardner, C. S. Woodward, R. Chinomona, *User Documentation for ARKODE*, LLNL,
 //! section “Mathematical considerations”. Root: M. Dowell, P. Jarratt, *A modified regula falsi method for computing the root
 //! of an equation*, BIT 11, 1971, 168–174 (“Illinois”).
 
-use crate::guard::finite;
-use crate::raw::arkode::{Memory, Step, System};
-use crate::request::{acceptable, check_times, coincide, nothing_done, resolution};
-use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink};
-use std::ffi::CStr;
+use crate::raw::arkode::{Memory, Step, System, Table};
+use problem::contract::{acceptable, check_times, coincide, crossed, finite, resolution, secant};
+use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem, Sink};
 use std::mem::swap;
 
-/// The pair, by its name in ARKODE.
-const TABLE: &CStr = c"ARKODE_VERNER_13_7_8";
+/// The explicit pair.
+const VERNER: Table = Table::Explicit(c"ARKODE_VERNER_13_7_8");
+/// The diagonally implicit pair.
+const KENNEDY_CARPENTER: Table = Table::Implicit(c"ARKODE_ESDIRK547L2SA2_7_4_5");
 /// How often a step is shortened before a point counts as impossible to evaluate; as many times as IDA tries.
 const MAX_CUTS: usize = 10;
 /// By how much, each time; IDA's figure.
@@ -29,18 +30,33 @@ const CUT: f64 = 0.25;
 /// First step, in units of the time to go, where ARKODE could not evaluate what it needs for its own choice; IDA's figure.
 const FIRST: f64 = 1e-3;
 
-/// An explicit Runge–Kutta method of order 8 with projection after each step.
+/// A Runge–Kutta method with projection after each step.
 ///
 /// Keeps its integrator between problems of the same size.
-#[derive(Default)]
-pub struct ExplicitRungeKutta {
+pub struct RungeKutta {
+    table: Table,
+    name: &'static str,
     work: Option<Work>,
+}
+
+impl RungeKutta {
+    /// Explicit, order 8.
+    pub fn explicit() -> Self {
+        Self { table: VERNER, name: "erk", work: None }
+    }
+
+    /// Diagonally implicit with exact matrices, order 5, L-stable.
+    pub fn implicit() -> Self {
+        Self { table: KENNEDY_CARPENTER, name: "dirk", work: None }
+    }
 }
 
 /// Everything that depends on the size of the problem.
 struct Work {
     memory: Memory,
     rates: Rates,
+    /// Matrix as the problem writes it, then copied to ARKODE.
+    jacobian: Matrix,
     /// The last point accepted.
     before: Point,
     /// The point to be accepted.
@@ -71,9 +87,9 @@ struct Rates {
     yd: Vec<f64>,
 }
 
-impl OdeMethod for ExplicitRungeKutta {
+impl OdeMethod for RungeKutta {
     fn name(&self) -> &'static str {
-        "erk"
+        self.name
     }
 
     /// Integrates until the last time, an event, or a failure.
@@ -95,19 +111,19 @@ impl OdeMethod for ExplicitRungeKutta {
         assert_eq!(y.len(), size, "one start value per unknown");
         check_times(times);
         if !acceptable(options) {
-            return nothing_done(IntegrationEnding::Refused, times[0]);
+            return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
         if size == 0 {
             let stop = times.iter().find(|&&time| sink(time, y, &[]) == Flow::Stop);
             let ending = stop.map_or(IntegrationEnding::Finished, |_| IntegrationEnding::Stopped);
-            return nothing_done(ending, *stop.unwrap_or(&times[times.len() - 1]));
+            return IntegrationOutcome::nothing_done(ending, *stop.unwrap_or(&times[times.len() - 1]));
         }
-        let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size));
+        let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size, self.table));
         let work = self.work.insert(work);
         if !work.start(problem, times[0], y, options) {
-            return nothing_done(IntegrationEnding::Refused, times[0]);
+            return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
-        let bridge = Bridge { problem, rates: &mut work.rates, residuals: 0 };
+        let bridge = Bridge { problem, rates: &mut work.rates, jacobian: &mut work.jacobian, residuals: 0, jacobians: 0 };
         let Work { memory, before, after, beyond, .. } = work;
         let mut run = Run { memory, bridge, before, after, beyond, max_steps: options.max_steps, steps: 0, cuts: 0 };
         let ending = run.visit(times, sink).err().unwrap_or(IntegrationEnding::Finished);
@@ -116,10 +132,17 @@ impl OdeMethod for ExplicitRungeKutta {
 }
 
 impl Work {
-    fn new(size: usize) -> Self {
+    fn new(size: usize, table: Table) -> Self {
         let point = Point { time: 0.0, y: vec![0.0; size], events: Vec::new() };
         let rates = Rates { time: f64::NAN, y: vec![0.0; size], yd: vec![0.0; size] };
-        Self { memory: Memory::new(size, TABLE), rates, before: point.clone(), after: point.clone(), beyond: point }
+        Self {
+            memory: Memory::new(size, table),
+            rates,
+            jacobian: Matrix::zeros(size, size),
+            before: point.clone(),
+            after: point.clone(),
+            beyond: point,
+        }
     }
 
     /// Hands start and tolerances to ARKODE. False where it does not accept the tolerances.
@@ -175,7 +198,7 @@ impl Run<'_> {
             }
             self.step(time)?;
             self.steps += 1;
-            if crossed(self.before, self.after).is_some() {
+            if crossed(&self.before.events, &self.after.events).is_some() {
                 return Err(self.event()?);
             }
             swap(self.before, self.after);
@@ -222,12 +245,12 @@ impl Run<'_> {
                 break;
             }
             // the earliest of the secants, not too close to either end, so that the bracket closes from both sides
-            let share = secant(self.before, self.beyond, weight_before, weight_beyond);
+            let share = secant(&self.before.events, &self.beyond.events, weight_before, weight_beyond);
             let step = (share * width).clamp(0.5 * resolution, width - 0.5 * resolution);
             self.memory.resume(self.before.time, &self.before.y, step);
             self.step(self.before.time + step)?;
             // an end that stays twice in a row loses half of its weight
-            if crossed(self.before, self.after).is_some() {
+            if crossed(&self.before.events, &self.after.events).is_some() {
                 swap(self.beyond, self.after);
                 weight_beyond = 1.0;
                 weight_before *= if moved == Some(End::Beyond) { 0.5 } else { 1.0 };
@@ -239,7 +262,7 @@ impl Run<'_> {
                 moved = Some(End::Before);
             }
         }
-        let event = crossed(self.before, self.beyond).unwrap_or(0);
+        let event = crossed(&self.before.events, &self.beyond.events).unwrap_or(0);
         let rising = self.before.events[event] < 0.0;
         swap(self.before, self.beyond);
         Ok(IntegrationEnding::Event { event, rising })
@@ -247,15 +270,16 @@ impl Run<'_> {
 
     fn outcome(self, ending: IntegrationEnding, y: &mut [f64]) -> IntegrationOutcome {
         y.copy_from_slice(&self.before.y);
+        let (iterations, failures) = self.memory.iterations();
         IntegrationOutcome {
             ending,
             time: self.before.time,
             steps: self.steps,
             rejected: self.memory.rejected(),
-            convergence_failures: self.cuts,
+            convergence_failures: self.cuts + failures,
             residuals: self.bridge.residuals,
-            jacobians: 0,
-            iterations: 0,
+            jacobians: self.bridge.jacobians,
+            iterations,
         }
     }
 }
@@ -264,7 +288,9 @@ impl Run<'_> {
 struct Bridge<'a> {
     problem: &'a mut dyn OdeProblem,
     rates: &'a mut Rates,
+    jacobian: &'a mut Matrix,
     residuals: usize,
+    jacobians: usize,
 }
 
 impl Bridge<'_> {
@@ -299,28 +325,17 @@ impl System for Bridge<'_> {
         finite(yd)
     }
 
+    fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError> {
+        self.jacobians += 1;
+        self.problem.jacobian(time, y, self.jacobian)?;
+        self.jacobian.as_slice().chunks_exact(y.len()).try_for_each(finite)?;
+        jacobian.copy_from_slice(self.jacobian.as_slice());
+        Ok(())
+    }
+
     fn accept(&mut self, time: f64, y: &mut [f64]) -> Result<(), EvalError> {
         self.problem.project(time, y)?;
         finite(y)?;
         self.renew(time, y)
     }
-}
-
-/// The first event function that reached or passed zero.
-fn crossed(before: &Point, after: &Point) -> Option<usize> {
-    before.events.iter().zip(&after.events).position(|(before, after)| changes(*before, *after))
-}
-
-/// Whether a function passes or reaches zero; one that starts there only leaves it.
-fn changes(before: f64, after: f64) -> bool {
-    before != 0.0 && (after == 0.0 || (before < 0.0) != (after < 0.0))
-}
-
-/// Where the first of the event functions that change sign is zero if they are straight, as a share of the way.
-fn secant(before: &Point, beyond: &Point, weight_before: f64, weight_beyond: f64) -> f64 {
-    let crossing = before.events.iter().zip(&beyond.events).filter(|(before, beyond)| changes(**before, **beyond));
-    crossing.fold(1.0, |share, (before, beyond)| {
-        let (before, beyond) = (weight_before * before.abs(), weight_beyond * beyond.abs());
-        f64::min(share, before / (before + beyond))
-    })
 }
