@@ -202,11 +202,14 @@ impl Motion {
         let mut seeds = Seeds::zeros(self.y.len(), self.u.len(), rows.len());
         // rows and states stand in the same order, at the end
         rows.iter().enumerate().for_each(|(k, &i)| seeds.yd[(i, k)] = 1.0);
-        for _ in 0..if rows.is_empty() { 0 } else { 6 } {
+        for _ in 0..if rows.is_empty() { 0 } else { 40 } {
             let ([r, _], [dr, _]) = self.along(&seeds);
             let J = DMatrix::from_fn(rows.len(), rows.len(), |i, k| dr[(rows[i], k)]);
             let step = J.lu().solve(&DVector::from_fn(rows.len(), |i, _| r[rows[i]])).expect("rows determine the rates of their states");
             rows.iter().zip(step.iter()).for_each(|(&i, dx)| self.yd[i] -= dx);
+            if step.iter().zip(&rows).all(|(dx, &i)| dx.abs() <= 1e-14 * (1.0 + self.yd[i].abs())) {
+                break;
+            }
         }
     }
 }
