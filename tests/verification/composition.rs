@@ -194,7 +194,8 @@ fn formulas_are_the_numbers_they_give() {
     };
     let (front, rear, ratio) =
         (radius(0.0432, 17.0, 16.0), radius(0.10622, 42.0, 44.0), format!("{:?}", 2.471 * 44.0 / 42.0 * 17.0 / 16.0));
-    let by_hand: [(&str, &[(&str, &str)], &[(&str, &str)]); 5] = [
+    type Changes<'a> = &'a [(&'a str, &'a str)];
+    let by_hand: [(&str, Changes<'_>, Changes<'_>); 5] = [
         ("spring", &[("front_spring_rate", "28 kN/m")], &[("fork_strut.spring.stiffness", "28000")]),
         (
             "preload",

@@ -182,7 +182,7 @@ pub fn evaluate(document: &mut Document, formulas: &[(String, Option<&'static Di
             }
             // what is wrong with a parameter was said there
             Ok(None) => {}
-            Err(finding) => findings.push(document.located(finding, pointer, About::Value)),
+            Err(finding) => findings.push(document.located(*finding, pointer, About::Value)),
         }
     }
     parameters
@@ -194,8 +194,8 @@ fn value_of(
     known: &HashMap<&str, Option<Known>>,
     all: &[&str],
     wanted: Option<&'static Dimension>,
-) -> Result<Option<Known>, Finding> {
-    let told = |e: ExpressionError| Finding::error(e.code(), e.to_string()).with_hint_from(e.hint());
+) -> Result<Option<Known>, Box<Finding>> {
+    let told = |e: ExpressionError| Box::new(Finding::error(e.code(), e.to_string()).with_hint_from(e.hint()));
     let expression = Expression::parse(text).map_err(told)?;
     if expression.names().iter().any(|n| known.get(n).is_some_and(Option::is_none)) {
         return Ok(None);
@@ -206,7 +206,7 @@ fn value_of(
             let message = format!("`{text}` is {}, expected {wanted}", describe(value.exponents));
             let plain = value.exponents == Exponents::default();
             let hint = plain.then(|| "give the numbers and parameters in it their units".to_owned());
-            Err(Finding::error("wrong_dimension", message).with_hint_from(hint))
+            Err(Box::new(Finding::error("wrong_dimension", message).with_hint_from(hint)))
         }
         None => Ok(Some(value)),
     }
@@ -333,14 +333,14 @@ impl<'a> Solver<'a> {
                 Some(formula) => self.formula(k, formula, open, findings),
                 None => parse(&text)
                     .map(|p| Known { si: p.value, exponents: p.unit.unwrap_or_default() })
-                    .map_err(|e| Finding::error(e.code(), e.to_string()).with_hint_from(e.hint()))
+                    .map_err(|e| Box::new(Finding::error(e.code(), e.to_string()).with_hint_from(e.hint())))
                     .map(Some),
             },
             // anything else than a number is for the schema to tell
             other => Ok(end(&other)),
         };
         let value = value.and_then(|value| self.in_its_unit(k, value)).unwrap_or_else(|finding| {
-            findings.push(found(self, finding));
+            findings.push(found(self, *finding));
             None
         });
         // part of a ring: that has been told
@@ -348,7 +348,7 @@ impl<'a> Solver<'a> {
     }
 
     /// The value of an adjustable measures what its range does.
-    fn in_its_unit(&self, k: usize, value: Option<Known>) -> Result<Option<Known>, Finding> {
+    fn in_its_unit(&self, k: usize, value: Option<Known>) -> Result<Option<Known>, Box<Finding>> {
         let around = self.written[k].pointer.trim_end_matches("/value");
         let range = self.document.value().pointer(&format!("{around}/range")).and_then(Value::as_array).map(Vec::as_slice);
         let (Some(value), Some([low, high])) = (value, range) else { return Ok(value) };
@@ -357,12 +357,12 @@ impl<'a> Solver<'a> {
             Some(other) => {
                 let (text, is, range) = (shown(&self.written[k].value), describe(value.exponents), describe(other.exponents));
                 let message = format!("`{text}` is {is}, but the range from `{}` to `{}` is {range}", shown(low), shown(high));
-                Err(Finding::error("wrong_dimension", message))
+                Err(Box::new(Finding::error("wrong_dimension", message)))
             }
         }
     }
 
-    fn formula(&mut self, k: usize, text: &str, open: &mut Vec<usize>, findings: &mut Findings) -> Result<Option<Known>, Finding> {
+    fn formula(&mut self, k: usize, text: &str, open: &mut Vec<usize>, findings: &mut Findings) -> Result<Option<Known>, Box<Finding>> {
         open.push(k);
         // a formula that cannot be read needs nothing
         let needed = Expression::parse(text).map(|e| e.names().into_iter().map(str::to_owned).collect::<Vec<_>>()).unwrap_or_default();

@@ -1,7 +1,7 @@
 //! What stands on a road: unevenness, slopes, banks, friction; one kind each, one file and one row.
 //!
 //! A kind gives height and friction over arc length s and offset n of the path, or over x and y of the world, with the derivatives that rates and exact Jacobians need, all in closed form. Short unevenness
-//! ([`Uneven`]) is as high everywhere across as on the path and is felt by its height alone, as if the road stayed level under each wheel; wheels stand on the slopes of everything else. A road may consist of several kinds:
+//! (`Uneven`) is as high everywhere across as on the path and is felt by its height alone, as if the road stayed level under each wheel; wheels stand on the slopes of everything else. A road may consist of several kinds:
 //! heights add, frictions multiply.
 
 mod bank;
