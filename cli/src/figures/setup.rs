@@ -34,7 +34,9 @@ pub fn side_view(report: &SetupReport) -> Figure {
     if let Some(squat) = &view.squat {
         if let Some([axle, pivot]) = squat.arm {
             sketch.line(axle, pivot, Stroke::Thick, "");
-            sketch.point(pivot, "pivot");
+            sketch.point(pivot, "");
+            // below: beside it stands the sprocket
+            sketch.note([pivot[0], pivot[1] - 0.08], "pivot".to_owned());
             if let Some(point) = squat.squat_point {
                 sketch.line(pivot, point, Stroke::Thin, "");
             }
