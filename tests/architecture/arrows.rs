@@ -48,11 +48,23 @@ fn metadata() -> Value {
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".into());
     let output = Command::new(cargo)
         .args(["metadata", "--no-deps", "--offline", "--format-version", "1"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
         .output()
         .expect("cargo runs, since it runs this test");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).expect("cargo writes JSON")
+}
+
+/// `cargo run`, and with it `make run`, needs one command to choose.
+pub fn commands_of_plain_cargo() -> Vec<String> {
+    let metadata = metadata();
+    let defaults = metadata["workspace_default_members"].as_array().expect("cargo lists the default members");
+    let packages = metadata["packages"].as_array().expect("cargo lists packages");
+    let targets = packages
+        .iter()
+        .filter(|package| defaults.contains(&package["id"]))
+        .flat_map(|package| package["targets"].as_array().expect("cargo lists targets"));
+    targets.filter(|target| target["kind"] == serde_json::json!(["bin"])).map(|target| text(&target["name"]).to_string()).collect()
 }
 
 fn text(value: &Value) -> &str {

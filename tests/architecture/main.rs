@@ -49,6 +49,12 @@ fn packages_depend_only_along_the_arrows() {
     hold("a package depends on another that it must not know (ARCHITECTURE.md shows the arrows)", &arrows::violations());
 }
 
+/// The README's first command says `cargo run` without a name.
+#[test]
+fn plain_cargo_run_has_one_command() {
+    assert_eq!(arrows::commands_of_plain_cargo(), ["fastbike"], "default-members in Cargo.toml");
+}
+
 #[test]
 fn the_engine_contains_no_word_of_the_trade() {
     let engine = repository().into_iter().filter(|file| file.path.starts_with("mbody/src/"));
