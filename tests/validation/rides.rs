@@ -169,7 +169,7 @@ impl Numbers {
     }
 }
 
-/// A maneuver of random sections, speeds and pulses, some of them beyond what can be ridden.
+/// A maneuver of random sections, speeds, pulses and roads, some of them beyond what can be ridden.
 fn random(numbers: &mut Numbers) -> String {
     let speed = numbers.between(4.0, 55.0);
     let side = if numbers.next() < 0.5 { -1.0 } else { 1.0 };
@@ -199,9 +199,15 @@ fn random(numbers: &mut Numbers) -> String {
     } else {
         String::new()
     };
+    let rough = if numbers.next() < 0.4 {
+        let (class, seed) = (["A", "B", "C", "D"][(numbers.next() * 4.0) as usize], (numbers.next() * 1e6) as u32);
+        format!("road: {{ iso_8608: {{ class: {class}, seed: {seed} }} }}\n")
+    } else {
+        String::new()
+    };
     let limits = if numbers.next() < 0.3 { "rider: { delay: 0.1 s, muscles: 30 rad/s }\n" } else { "" };
     format!(
-        "maneuver: 1\nname: Random\nspeed: {speed}\n{faster}path:\n  - straight: {{ length: {} }}\n  - {section}\n  - straight: {{ length: {length} }}\n{pulses}{limits}duration: 15\n",
+        "maneuver: 1\nname: Random\nspeed: {speed}\n{faster}path:\n  - straight: {{ length: {} }}\n  - {section}\n  - straight: {{ length: {length} }}\n{pulses}{rough}{limits}duration: 15\n",
         0.5 * speed
     )
 }

@@ -125,6 +125,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("unknown_word", "There is nothing of this name to explain."),
     ("unused_dynamics", "Damping and friction of the URDF are not used; an element says them better."),
     ("unused_mimic", "A fixed joint of the URDF follows another one, which changes nothing."),
+    ("weak_lateral_damper", "A tire whose lateral damper is too weak beside the radial one: the contact patch of a leaning, sliding wheel may snap back."),
     ("wrong_constraint", "The element needs a constraint of another kind."),
     ("wrong_count", "A list has more or fewer items than belong there."),
     ("wrong_dimension", "The unit measures something else than what belongs there; quantities of different kinds cannot be added or compared either."),

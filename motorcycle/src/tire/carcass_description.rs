@@ -173,7 +173,9 @@ pub(super) fn carcass(
     match description {
         CarcassDescription::Deformable(c) => {
             let longitudinal = c.longitudinal.map(ElasticDescription::elastic);
-            Some(Carcass::Deformable(Deformable { radial: c.radial.elastic(), lateral: c.lateral.elastic(), longitudinal }))
+            let carcass = Deformable { radial: c.radial.elastic(), lateral: c.lateral.elastic(), longitudinal };
+            warn_of_snapping(&carcass, site);
+            Some(Carcass::Deformable(carcass))
         }
         CarcassDescription::Vertical(c) => Some(Carcass::Vertical(Vertical {
             normal: Elastic { stiffness: c.stiffness.si(), damping: c.damping.si() },
@@ -185,6 +187,19 @@ pub(super) fn carcass(
             let load = holding(&c.contact, wheel?, site);
             Some(Carcass::Rigid(Rigid { load: load?, relaxation: relaxation? }))
         }
+    }
+}
+
+/// A warning where the lateral damper is too weak beside the radial one for friction 1.
+fn warn_of_snapping(carcass: &Deformable, site: &mut Site<'_>) {
+    let least = Deformable::least_lateral_damping(1.0) * carcass.radial.damping;
+    if carcass.lateral.damping < least {
+        let message = format!(
+            "the lateral damper ({} N s/m) is so weak beside the radial one ({} N s/m) that the patch may snap where a leaning wheel slides",
+            carcass.lateral.damping, carcass.radial.damping
+        );
+        let hint = format!("give {least:.0} N s/m or more; violent rides end `not_converged` otherwise");
+        site.find("carcass.deformable.lateral.damping", Finding::warning("weak_lateral_damper", message).with_hint(hint));
     }
 }
 

@@ -14,8 +14,8 @@ use crate::path::{Path, Reached, Roots, follow};
 use crate::step_control::{CUT, MAX_CUTS, Tolerances};
 use diffsol::error::OdeSolverError;
 use diffsol::{DiffsolError, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeSolverMethod, Vector, VectorCommon};
-use problem::contract::{acceptable, check_times, finite};
-use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem, Sink};
+use problem::contract::{acceptable, check_times, finite, without_unknowns};
+use problem::{EvalError, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem, Sink};
 use std::cell::RefCell;
 
 type Solver = NalgebraLU<f64>;
@@ -93,9 +93,7 @@ impl OdeMethod for Diffsol {
             return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
         if size == 0 {
-            let stop = times.iter().find(|&&time| sink(time, y, &[]) == Flow::Stop);
-            let ending = stop.map_or(IntegrationEnding::Finished, |_| IntegrationEnding::Stopped);
-            return IntegrationOutcome::nothing_done(ending, *stop.unwrap_or(&times[times.len() - 1]));
+            return without_unknowns(times, sink);
         }
         let shared = RefCell::new(Shared { problem, matrix: Matrix::zeros(size, size), at: None, residuals: 0, jacobians: 0, error: None });
         let mut rates = vec![0.0; size];

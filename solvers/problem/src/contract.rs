@@ -1,6 +1,6 @@
 //! What integrators demand of times, options and values, and when an event function has passed its root.
 
-use crate::{EvalError, IntegrationOptions};
+use crate::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Sink};
 
 /// Distance of two times in units of rounding below which they are the same; the figure of SUNDIALS.
 const FUZZ: f64 = 100.0 * f64::EPSILON;
@@ -23,6 +23,13 @@ pub fn acceptable(options: &IntegrationOptions) -> bool {
         && options.first_step.is_none_or(|step| usable(step) && step > 0.0)
         && options.max_step > 0.0
         && options.fixed_step > 0.0
+}
+
+/// Hands out the samples of a problem that has no unknowns, for methods of libraries that take none such.
+pub fn without_unknowns(times: &[f64], sink: Sink<'_>) -> IntegrationOutcome {
+    let stop = times.iter().find(|&&time| sink(time, &[], &[]) == Flow::Stop);
+    let ending = stop.map_or(IntegrationEnding::Finished, |_| IntegrationEnding::Stopped);
+    IntegrationOutcome::nothing_done(ending, *stop.unwrap_or(&times[times.len() - 1]))
 }
 
 /// Whether no step fits between two times: rounding is all that separates them.

@@ -15,7 +15,7 @@
 //! of an equation*, BIT 11, 1971, 168–174 (“Illinois”).
 
 use crate::raw::arkode::{Memory, Step, System, Table};
-use problem::contract::{acceptable, check_times, coincide, crossed, finite, resolution, secant};
+use problem::contract::{acceptable, check_times, coincide, crossed, finite, resolution, secant, without_unknowns};
 use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem, Sink};
 use std::mem::swap;
 
@@ -114,9 +114,7 @@ impl OdeMethod for RungeKutta {
             return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
         if size == 0 {
-            let stop = times.iter().find(|&&time| sink(time, y, &[]) == Flow::Stop);
-            let ending = stop.map_or(IntegrationEnding::Finished, |_| IntegrationEnding::Stopped);
-            return IntegrationOutcome::nothing_done(ending, *stop.unwrap_or(&times[times.len() - 1]));
+            return without_unknowns(times, sink);
         }
         let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size, self.table));
         let work = self.work.insert(work);
