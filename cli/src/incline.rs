@@ -20,6 +20,7 @@ use analyses::trim::Trim;
 use mbody::description::quantity::dimension::{Angle, Number};
 use mbody::description::quantity::{Dimensioned, QuantityError, parse_quantity};
 use mbody::dynamics::{System, TreePlant};
+use motorcycle::road::Relief;
 use std::sync::Arc;
 
 /// Greatest slope.
@@ -62,6 +63,12 @@ impl Incline {
             grade: grade.map_or(Ok(0.0), |text| slope("grade", text, false))?,
             cross_slope: bank.map_or(Ok(0.0), |text| slope("bank", text, true))?,
         })
+    }
+
+    /// How a road is inclined where its path begins.
+    pub fn at_start(reliefs: &[Arc<dyn Relief>]) -> Self {
+        let shapes = reliefs.iter().filter(|relief| relief.tilts()).map(|relief| relief.shape(0.0, 0.0).first);
+        shapes.fold(Self::default(), |sum, [along, across]| Self { grade: sum.grade + along, cross_slope: sum.cross_slope + across })
     }
 
     /// Lays the road of a steady motion under both wheels, and lets the vehicle rise with it.

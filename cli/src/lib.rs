@@ -6,6 +6,7 @@
 pub mod animation;
 pub mod arguments;
 pub mod backend;
+mod base;
 pub mod commands;
 pub mod comparison;
 pub mod console;

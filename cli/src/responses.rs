@@ -1,11 +1,12 @@
 //! Answers of a vehicle in steady motion to what oscillates: inputs by name, and a road under both wheels.
 
 use crate::arguments::{ModelArguments, argument, unknown_name};
+use crate::base::base_name;
 use crate::model::Loaded;
 use crate::output::Point;
 use crate::output::responses::{PointResponses, Responses};
 use crate::output::{Beside, Report, Variant};
-use crate::plan::{Request, base_name};
+use crate::plan::Request;
 use crate::small_motions::{FROZEN, SmallMotions, accelerates};
 use crate::steady::Steady;
 use crate::{Context, Failure, model, results, steady};

@@ -3,10 +3,11 @@
 //! The order is: assemble, trim, linearize, gains, rider. Nothing is tuned by hand; what the user may choose is what counts as much as what.
 
 use crate::Failure;
+use crate::base::base_name;
 use crate::lateral::{self, Steering, steer};
 use crate::output::Point;
 use crate::output::rider::RiderAlong;
-use crate::plan::{Prescribed, Request, Turn, base_name};
+use crate::plan::{Prescribed, Request, Turn};
 use crate::small_motions::SmallMotions;
 use crate::steady;
 use analyses::LinearModel;

@@ -1,8 +1,7 @@
 //! Puts the road of a maneuver under the wheels of a vehicle.
 
 use crate::Failure;
-use crate::incline::Incline;
-use crate::plan::base_name;
+use crate::base::base_name;
 use mbody::description::finding::Finding;
 use mbody::dynamics::{System, TreePlant};
 use motorcycle::maneuver::Path;
@@ -26,12 +25,6 @@ pub fn under_wheels(reliefs: &[Arc<dyn Relief>], path: &Path, system: &Arc<Syste
     let wheelbase = known_wheelbase(&mut plant)?;
     let base = ["x", "y", "yaw", "forward_speed", "lateral_speed", "yaw_rate"].map(|name| format!("{base}.{name}"));
     Ok(Passing::new(Tracks { base, roads: ROADS.map(str::to_owned), wheelbase }, path.clone(), reliefs.to_vec()))
-}
-
-/// How a road is inclined where its path begins.
-pub fn at_start(reliefs: &[Arc<dyn Relief>]) -> Incline {
-    let shapes = reliefs.iter().filter(|relief| relief.tilts()).map(|relief| relief.shape(0.0, 0.0).first);
-    shapes.fold(Incline::default(), |sum, [along, across]| Incline { grade: sum.grade + along, cross_slope: sum.cross_slope + across })
 }
 
 /// Refuses models whose tires know of no road, with what follows and a further hint.

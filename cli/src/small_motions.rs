@@ -1,10 +1,11 @@
 //! Small motions about the steady states of a run: linear models and modes at every point, modes followed from point to point.
 
 use crate::Failure;
+use crate::base::base_name;
 use crate::output::linear::Linear;
 use crate::output::modes::{Branch, Critical, ModesAlong, NamedMode, PointModes};
 use crate::output::{Point, Progress};
-use crate::plan::{Prescribed, Request, Turn, base_name};
+use crate::plan::{Prescribed, Request, Turn};
 use crate::steady::{self, Steady};
 use analyses::linearize::{BoundInputs, Options};
 use analyses::modes::critical::zero;

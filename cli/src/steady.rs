@@ -2,8 +2,9 @@
 
 use crate::arguments::unknown_name;
 use crate::backend::AlgebraicBackend;
+use crate::base::stands;
 use crate::output::{Given, Point, Progress};
-use crate::plan::{Drive, Plan, Prescribed, Request, Turn, stands};
+use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
 use crate::{Failure, backend, trust};
 use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};

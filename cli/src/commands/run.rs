@@ -4,10 +4,11 @@ use super::{Kind, read};
 use crate::animation::{self, Scene};
 use crate::arguments::{Jacobian, ModelArguments, OutputArguments, argument};
 use crate::figures::ride::{self, Picture};
+use crate::incline::Incline;
 use crate::output::{Angles, History, Results};
 use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
-use crate::{Context, Exit, Failure, interrupt, maneuver, model, motion, results, road};
+use crate::{Context, Exit, Failure, interrupt, maneuver, model, motion, results};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Severity;
 use mbody::description::quantity::dimension::{Frequency, Number, Time};
@@ -126,7 +127,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
     let scene = arguments.animate.is_some().then(|| Scene::of(&loaded.assembled));
     let mut steady = arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?;
     if let (Some(steady), Some(maneuver)) = (&mut steady, &maneuver) {
-        steady.incline = road::at_start(&maneuver.road);
+        steady.incline = Incline::at_start(&maneuver.road);
     }
     let request = motion::Request {
         times,

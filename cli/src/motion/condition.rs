@@ -3,7 +3,7 @@
 use super::start::quantity;
 use crate::Failure;
 use crate::arguments::{argument, unknown_name};
-use crate::plan::base_name;
+use crate::base::base_name;
 use analyses::Variables;
 use problem::{Limit, Plant, Side};
 

@@ -3,81 +3,20 @@
 //! The analyses know signals, not vehicles. Here the options of `trim` become roles of signals: `--speed` is the forward speed
 //! of the base point, `--lean` the roll, and so on (all of the base point: road level below the rear axle in the design pose).
 
+mod options;
+
+pub use options::{SteadyArguments, TrimArguments};
+
 use crate::Failure;
-use crate::arguments::{argument, sweep, unknown_name};
+use crate::arguments::{argument, unknown_name};
+use crate::base::{base_name, base_of, stands};
 use crate::incline::Incline;
 use analyses::trim::{Role, Trim};
-use clap::Args;
 use mbody::description::finding::Finding;
-use mbody::description::quantity::dimension::{Acceleration, Angle, AngularSpeed, Curvature, Length, Number, Speed, Torque};
-use mbody::description::quantity::{Dimension, Dimensioned, QuantityError, parse_quantity};
+use mbody::description::quantity::{Dimension, QuantityError, parse_quantity};
 use mbody::dynamics::System;
-use motorcycle::steering::STANDS;
-use problem::{Plant, Unknown, UnknownKind};
-use std::f64::consts::FRAC_PI_2;
+use problem::{Plant, UnknownKind};
 use std::sync::Arc;
-
-/// Options that prescribe a steady motion.
-#[derive(Clone, Debug, Default, Args)]
-#[command(allow_negative_numbers = true)]
-pub struct SteadyArguments {
-    /// Forward speed; left out: the static pose
-    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
-    pub speed: Option<String>,
-    /// Lean, positive to the right
-    #[arg(long, value_name = "ANGLE", group = "turn", allow_hyphen_values = true)]
-    pub lean: Option<String>,
-    /// Lateral acceleration (speed times yaw rate), positive to the left
-    #[arg(long, value_name = "ACCELERATION", group = "turn", allow_hyphen_values = true)]
-    pub lateral_acceleration: Option<String>,
-    /// Curvature of the path, positive to the left
-    #[arg(long, value_name = "CURVATURE", group = "turn", allow_hyphen_values = true)]
-    pub curvature: Option<String>,
-    /// Radius of the path, positive to the left
-    #[arg(long, value_name = "RADIUS", group = "turn", allow_hyphen_values = true)]
-    pub radius: Option<String>,
-    /// Yaw rate, positive to the left
-    #[arg(long, value_name = "RATE", group = "turn", allow_hyphen_values = true)]
-    pub yaw_rate: Option<String>,
-    /// Steering torque; every lean that holds itself with it is searched
-    #[arg(long, value_name = "TORQUE", group = "turn", allow_hyphen_values = true)]
-    pub steer_torque: Option<String>,
-    /// Acceleration along the heading; negative: braking
-    #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
-    pub acceleration: Option<String>,
-    /// Slope of the road along the path, positive uphill: `5%`, or an angle, `3deg`
-    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true)]
-    pub grade: Option<String>,
-    /// Inclination of the road across the path, positive where it leans to the right: `-8deg` helps a turn to the left; or a slope, `-14%`
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
-    pub bank: Option<String>,
-    /// Share of the front brake in the braking torque, 0 to 1
-    #[arg(long, value_name = "SHARE", default_value = "0.7")]
-    pub front_brake_share: String,
-    /// Speed at full throttle
-    #[arg(long, conflicts_with_all = ["speed", "acceleration"])]
-    pub top_speed: bool,
-    /// Gear, for models with an engine
-    #[arg(long, value_name = "NUMBER")]
-    pub gear: Option<u32>,
-}
-
-/// Options of a steady state.
-#[derive(Clone, Debug, Default, Args)]
-#[command(allow_negative_numbers = true)]
-pub struct TrimArguments {
-    #[command(flatten)]
-    steady: SteadyArguments,
-    /// Give a signal a value or a formula of other signals: `drive.torque=0`, `rear_brake.torque=0.4*front_brake.torque` (repeatable)
-    #[arg(long, value_name = "SIGNAL=VALUE", allow_hyphen_values = true)]
-    pub given: Vec<String>,
-    /// Let a signal be found, with an optional first guess: `chassis.roll=0.1` (repeatable)
-    #[arg(long, value_name = "SIGNAL")]
-    pub free: Vec<String>,
-    /// Solver: kinsol or newton
-    #[arg(long, default_value = "kinsol")]
-    pub backend: String,
-}
 
 /// How the turn is prescribed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,131 +66,6 @@ pub struct Request {
     /// Signal, guess.
     pub free: Vec<(String, Option<f64>)>,
 }
-
-fn prescribed<D: Dimensioned>(option: &str, name: &'static str, text: &Option<String>) -> Result<Option<Prescribed>, Failure> {
-    let Some(text) = text else { return Ok(None) };
-    Ok(Some(Prescribed { name, unit: D::DIMENSION.unit, values: sweep::<D>(option, text)? }))
-}
-
-impl TrimArguments {
-    /// `--gear` as an override: a parameter of the element `engine`.
-    pub fn gear_override(&self) -> Option<String> {
-        self.steady.gear_override()
-    }
-
-    /// Reads all values.
-    ///
-    /// # Errors
-    /// Names the option, the text and what was expected.
-    pub fn request(&self) -> Result<Request, Failure> {
-        self.steady.request(&self.given, &self.free)
-    }
-}
-
-impl SteadyArguments {
-    /// `--gear` as an override: a parameter of the element `engine`.
-    pub fn gear_override(&self) -> Option<String> {
-        self.gear.map(|gear| format!("engine.gear={gear}"))
-    }
-
-    /// Whether a motion on the road is asked for, or something that needs one.
-    pub fn moving(&self) -> bool {
-        let other = [&self.lean, &self.lateral_acceleration, &self.curvature, &self.radius, &self.yaw_rate, &self.steer_torque];
-        let other = other.into_iter().chain([&self.grade, &self.bank]);
-        self.top_speed || self.speed.is_some() || self.acceleration.is_some() || other.into_iter().any(|option| option.is_some())
-    }
-
-    /// Reads all values; `given` and `free` are `--given` and `--free` of a steady state.
-    ///
-    /// # Errors
-    /// Names the option, the text and what was expected.
-    pub fn request(&self, given: &[String], free: &[String]) -> Result<Request, Failure> {
-        let turns = [
-            (Turn::Lean, prescribed::<Angle>("lean", "lean", &self.lean)?),
-            (
-                Turn::LateralAcceleration,
-                prescribed::<Acceleration>("lateral-acceleration", "lateral_acceleration", &self.lateral_acceleration)?,
-            ),
-            (Turn::Curvature, prescribed::<Curvature>("curvature", "curvature", &self.curvature)?),
-            (Turn::Radius, prescribed::<Length>("radius", "radius", &self.radius)?),
-            (Turn::YawRate, prescribed::<AngularSpeed>("yaw-rate", "yaw_rate", &self.yaw_rate)?),
-            (Turn::SteerTorque, prescribed::<Torque>("steer-torque", "steer_torque", &self.steer_torque)?),
-        ];
-        let turn = turns.into_iter().find_map(|(turn, p)| p.map(|p| (turn, p)));
-        if let Some((Turn::Lean, p)) = &turn
-            && let Some(flat) = p.values.iter().find(|v| v.abs() >= FRAC_PI_2)
-        {
-            let text = self.lean.as_deref().unwrap_or_default();
-            let message = format!("a lean of {flat} rad is out of range: it must be between -90 deg and 90 deg");
-            return Err(argument("lean", text, "out_of_range", message)
-                .with_hint("angles without unit are in radians; write `35deg`")
-                .into());
-        }
-        let speed = prescribed::<Speed>("speed", "speed", &self.speed)?;
-        if let Some(s) = &speed
-            && let Some(slow) = s.values.iter().find(|&&v| v <= 0.0)
-        {
-            let text = self.speed.as_deref().unwrap_or_default();
-            let finding = argument("speed", text, "out_of_range", format!("`{slow} m/s` is out of range: it must be greater than 0 m/s"));
-            return Err(finding.with_hint("leave `--speed` out for the static pose").into());
-        }
-        let incline = Incline::read(self.grade.as_deref(), self.bank.as_deref())?;
-        if speed.is_none() && !self.top_speed && (turn.is_some() || self.acceleration.is_some() || incline != Incline::default()) {
-            let finding = Finding::error("missing_speed", "a turn, an acceleration or an inclined road needs a speed");
-            return Err(finding.with_hint("add `--speed`, for example `--speed 30`").into());
-        }
-        if let Some((Turn::Radius, p)) = &turn
-            && p.values.contains(&0.0)
-        {
-            let text = self.radius.as_deref().unwrap_or_default();
-            let finding = argument("radius", text, "out_of_range", "a radius of `0 m` is out of range");
-            return Err(finding.with_hint("straight running is `--curvature 0`").into());
-        }
-        let share = sweep::<Number>("front-brake-share", &self.front_brake_share)?;
-        let of_share = |code, why: String| argument("front-brake-share", &self.front_brake_share, code, why);
-        let [front_brake_share] = share[..] else {
-            return Err(of_share("wrong_count", "this takes one value".to_owned()).into());
-        };
-        if !(0.0..=1.0).contains(&front_brake_share) {
-            let why = format!("`{front_brake_share}` is out of range: it must be from 0 to 1");
-            return Err(of_share("out_of_range", why).into());
-        }
-        let split = |s: &String| match s.split_once('=') {
-            Some((name, value)) => Ok((name.trim().to_owned(), value.trim().to_owned())),
-            None => {
-                let finding = argument("given", s, "bad_argument", "this is not of the form SIGNAL=VALUE");
-                Err(Failure::from(finding.with_hint("to leave a signal open, write `--free SIGNAL`")))
-            }
-        };
-        let guessed = |s: &String| match s.split_once('=') {
-            None => Ok((s.trim().to_owned(), None)),
-            Some((name, guess)) => match guess.trim().parse() {
-                Ok(guess) => Ok((name.trim().to_owned(), Some(guess))),
-                Err(_) => Err(Failure::from(argument("free", s, "bad_number", format!("the guess `{guess}` is not a number")))),
-            },
-        };
-        let acceleration = prescribed::<Acceleration>("acceleration", "acceleration", &self.acceleration)?;
-        let counts = [speed.as_ref(), turn.as_ref().map(|t| &t.1), acceleration.as_ref()].map(|p| p.map_or(1.0, |p| p.values.len() as f64));
-        let points: f64 = counts.iter().product();
-        if points > MOST_POINTS {
-            let message = format!("the sweeps make {points:.0} points together; at most {MOST_POINTS:.0} are accepted");
-            return Err(Finding::error("too_many_points", message).with_hint("take larger steps").into());
-        }
-        Ok(Request {
-            speed,
-            turn,
-            acceleration,
-            front_brake_share,
-            top_speed: self.top_speed,
-            incline,
-            given: given.iter().map(split).collect::<Result<_, _>>()?,
-            free: free.iter().map(guessed).collect::<Result<_, _>>()?,
-        })
-    }
-}
-
-/// Points of a grid; more would fill the memory before the first of them is reached.
-const MOST_POINTS: f64 = 1e6;
 
 /// First guess of the heave at rest, m: tires that merely touch the road carry nothing, and a vehicle that they do not carry would
 /// find its balance on one wheel.
@@ -323,20 +137,6 @@ impl Plan {
             }
         }
     }
-}
-
-/// The name of the base link: the owner of `<base>.forward_speed`.
-pub fn base_name(plant: &dyn Plant) -> Option<String> {
-    base_of(plant.unknowns())
-}
-
-fn base_of(unknowns: &[Unknown]) -> Option<String> {
-    unknowns.iter().find_map(|u| u.signal.name.strip_suffix(".forward_speed").map(str::to_owned))
-}
-
-/// Whether the vehicle stands on its wheels: then a turn is given and its roll is found, where a leaning one is given its roll.
-pub fn stands(plant: &dyn Plant) -> bool {
-    plant.outputs().iter().any(|output| output.name == STANDS)
 }
 
 fn fix_if_there(trim: &mut Trim, name: &str, value: f64) -> Result<(), Failure> {
