@@ -99,6 +99,10 @@ fn the_steady_turn_is_met() {
     ] {
         agreement.printed(what, value, text);
     }
+    agreement.holds(
+        "to the left both tires push to the left",
+        ["front", "rear"].iter().all(|end| state.get(&format!("{end}_tire.lateral_force")) > 0.0),
+    );
     agreement.assert();
 }
 

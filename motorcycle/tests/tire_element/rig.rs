@@ -1,5 +1,4 @@
-//! What the tests of vehicles need: trees from URDF, signals by name, a Newton iteration and the modes of a system.
-#![allow(dead_code, reason = "each test uses its part")]
+//! A plant from a tree and elements, with its arguments by name.
 
 use mbody::description::urdf::{self, JointKind};
 use mbody::dynamics::{System, TreePlant};
@@ -7,8 +6,7 @@ use mbody::force::Force;
 use mbody::joint::{Joint, Prismatic, Revolute, VehicleBase};
 use mbody::model::{BodyIndex, Model, ModelBuilder};
 use mbody::spatial::{MassProperties, Pose};
-use nalgebra::{Complex, DMatrix, DVector};
-use problem::{At, Dae, Differentiable, EquationKind, Matrix, Outputs, Seeds, UnknownKind};
+use problem::{At, Dae, Differentiable, EquationKind, Matrix, Outputs, Seeds};
 use std::sync::Arc;
 
 /// The tree of a vehicle on a vehicle base.
@@ -108,12 +106,6 @@ impl Rig {
         rows.filter(|(_, e)| e.kind != EquationKind::Kinematic).map(|(i, _)| i).collect()
     }
 
-    /// Residual of a row by name.
-    pub fn row(&mut self, name: &str) -> f64 {
-        let i = self.plant.equations().iter().position(|e| e.name == name).unwrap_or_else(|| panic!("no row is called {name}"));
-        self.evaluate().0[i]
-    }
-
     /// Derivatives of residual and outputs along directions.
     pub fn along(&mut self, seeds: &Seeds) -> (Matrix, Matrix) {
         let (nr, nz) = (self.plant.equations().len(), self.plant.outputs().len());
@@ -122,62 +114,5 @@ impl Rig {
         let at = At { time: 0.0, y: &self.y, yd: &self.yd, u: &self.u };
         self.plant.along(at, seeds, (&mut r, &mut z), &mut dr, &mut dz).expect("finite");
         (dr, dz)
-    }
-
-    /// Newton: makes the steady rows zero and outputs meet their targets by changing unknowns and inputs; returns the iterations.
-    pub fn solve(&mut self, unknowns: &[&str], targets: &[(&str, f64)]) -> usize {
-        let slots: Vec<Slot> = unknowns.iter().map(|n| self.slot(n)).collect();
-        let rows = self.steady_rows();
-        let outputs: Vec<(usize, f64)> = targets.iter().map(|(n, value)| (self.output_index(n), *value)).collect();
-        assert_eq!(slots.len(), rows.len() + outputs.len(), "square");
-        let mut seeds = Seeds::zeros(self.y.len(), self.u.len(), slots.len());
-        for (k, slot) in slots.iter().enumerate() {
-            match *slot {
-                Slot::Y(i) => seeds.y[(i, k)] = 1.0,
-                Slot::U(i) => seeds.u[(i, k)] = 1.0,
-            }
-        }
-        for iteration in 0..30 {
-            let (r, z) = self.evaluate();
-            let residual: Vec<f64> = rows.iter().map(|&i| r[i]).chain(outputs.iter().map(|&(i, t)| z[i] - t)).collect();
-            let f = DVector::from_vec(residual);
-            let (dr, dz) = self.along(&seeds);
-            let J = DMatrix::from_fn(slots.len(), slots.len(), |i, k| {
-                if i < rows.len() { dr[(rows[i], k)] } else { dz[(outputs[i - rows.len()].0, k)] }
-            });
-            let step = J.lu().solve(&f).expect("regular");
-            for (slot, dx) in slots.iter().zip(step.iter()) {
-                let now = match *slot {
-                    Slot::Y(i) => self.y[i],
-                    Slot::U(i) => self.u[i],
-                };
-                self.set_slot(*slot, now - dx);
-            }
-            if step.amax() < 1e-10 {
-                return iteration;
-            }
-        }
-        panic!("no convergence");
-    }
-
-    /// Eigenvalues of `E δẏ + A δy = 0` without the cyclic coordinates, by falling imaginary part.
-    pub fn eigenvalues(&mut self) -> Vec<Complex<f64>> {
-        let kept: Vec<usize> = {
-            let unknowns = self.plant.unknowns().iter().enumerate();
-            unknowns.filter(|(_, u)| u.kind != UnknownKind::Position || !u.cyclic).map(|(i, _)| i).collect()
-        };
-        let n = kept.len();
-        let mut seeds = Seeds::zeros(self.y.len(), self.u.len(), 2 * n);
-        for (k, &i) in kept.iter().enumerate() {
-            seeds.y[(i, k)] = 1.0;
-            seeds.yd[(i, n + k)] = 1.0;
-        }
-        let (dr, _) = self.along(&seeds);
-        let A = DMatrix::from_fn(n, n, |i, k| dr[(kept[i], k)]);
-        let E = DMatrix::from_fn(n, n, |i, k| dr[(kept[i], n + k)]);
-        let state = -E.lu().solve(&A).expect("regular");
-        let mut values: Vec<_> = state.complex_eigenvalues().iter().copied().collect();
-        values.sort_by(|a, b| b.im.total_cmp(&a.im).then(a.re.total_cmp(&b.re)));
-        values
     }
 }
