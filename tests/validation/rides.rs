@@ -4,6 +4,7 @@ use mbody::description::OneText;
 use mbody::description::finding::Findings;
 use validation::agreement::{Agreement, absolute};
 use validation::evidence::Row;
+use validation::numbers::Numbers;
 use validation::rode::{Care, Rode, read};
 use validation::vehicle::Vehicle;
 
@@ -156,26 +157,13 @@ fn left_turns_begin_with_the_bar_to_the_right() {
     agreement.assert();
 }
 
-/// A number between 0 and 1.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
-
 /// A maneuver of random sections, speeds, pulses and roads, some of them beyond what can be ridden.
 fn random(numbers: &mut Numbers) -> String {
     let speed = numbers.between(4.0, 55.0);
-    let side = if numbers.next() < 0.5 { -1.0 } else { 1.0 };
+    let side = if numbers.unit() < 0.5 { -1.0 } else { 1.0 };
     let (length, hard) = (numbers.between(0.8, 4.0) * speed, numbers.between(1.0, 14.0));
     let radius = side * speed * speed / hard;
-    let section = match (numbers.next() * 6.0) as usize {
+    let section = match (numbers.unit() * 6.0) as usize {
         0 => format!("lane_change: {{ width: {}, length: {length} }}", side * numbers.between(0.5, 6.0)),
         1 => format!(
             "double_lane_change: {{ standard: iso_3888_{}, vehicle_width: 0.8, stretch: {} }}",
@@ -189,23 +177,23 @@ fn random(numbers: &mut Numbers) -> String {
     };
     let target = speed * numbers.between(0.3, 1.3);
     let (peak, start, duration) = (numbers.between(-120.0, 120.0), numbers.between(0.0, 2.0), numbers.between(0.02, 0.5));
-    let faster = if numbers.next() < 0.4 {
+    let faster = if numbers.unit() < 0.4 {
         format!("speed_over_time: [[0, {speed}], [1, {speed}], [4, {target}], [9, {target}]]\n")
     } else {
         String::new()
     };
-    let pulses = if numbers.next() < 0.4 {
+    let pulses = if numbers.unit() < 0.4 {
         format!("torque_pulses:\n  - {{ peak: {peak}, start: {start}, duration: {duration} }}\n")
     } else {
         String::new()
     };
-    let rough = if numbers.next() < 0.4 {
-        let (class, seed) = (["A", "B", "C", "D"][(numbers.next() * 4.0) as usize], (numbers.next() * 1e6) as u32);
+    let rough = if numbers.unit() < 0.4 {
+        let (class, seed) = (["A", "B", "C", "D"][(numbers.unit() * 4.0) as usize], (numbers.unit() * 1e6) as u32);
         format!("road: {{ iso_8608: {{ class: {class}, seed: {seed} }} }}\n")
     } else {
         String::new()
     };
-    let limits = if numbers.next() < 0.3 { "rider: { delay: 0.1 s, muscles: 30 rad/s }\n" } else { "" };
+    let limits = if numbers.unit() < 0.3 { "rider: { delay: 0.1 s, muscles: 30 rad/s }\n" } else { "" };
     format!(
         "maneuver: 1\nname: Random\nspeed: {speed}\n{faster}path:\n  - straight: {{ length: {} }}\n  - {section}\n  - straight: {{ length: {length} }}\n{pulses}{rough}{limits}duration: 15\n",
         0.5 * speed

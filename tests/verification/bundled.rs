@@ -1,12 +1,12 @@
 //! Every bundled model as a whole, in general motion: power, forces of constraints, derivatives in every formulation of the constraints.
 
-use crate::motion::Numbers;
 use fastbike::library::bundled_models;
 use mbody::dynamics::{Formulation, TreePlant};
 use problem::{At, Dae, Differentiable, EquationKind, Explicit, Matrix, Outputs, Projection, Seeds, UnknownKind};
 use validation::agreement::{Agreement, absolute};
 use validation::course::system;
 use validation::evidence::Row;
+use validation::numbers::Numbers;
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -42,12 +42,12 @@ impl Point {
     /// A state in general position, on the constraints, with multipliers and rates that satisfy the equations.
     fn general(model: &str, formulation: Formulation, numbers: &mut Numbers) -> Self {
         let mut plant = TreePlant::in_formulation(system(model), formulation);
-        let speed = 22.0 + 8.0 * numbers.next();
+        let speed = 22.0 + 8.0 * numbers.signed();
         let mut y = Vec::new();
         for unknown in plant.unknowns() {
             let (owner, quantity) = unknown.signal.name.split_once('.').expect("owner and quantity");
             let start = unknown.start.unwrap_or(unknown.design);
-            let spread = numbers.next();
+            let spread = numbers.signed();
             y.push(match (quantity, unknown.kind) {
                 ("forward_speed", _) => speed,
                 ("rate" | "spin_rate", _) if owner.ends_with("wheel") => speed / 0.31 * (1.0 + 0.01 * spread),
@@ -66,8 +66,12 @@ impl Point {
             .map(|i| plant.inputs()[i].rate.is_none() && !plant.inputs().iter().any(|other| other.rate == Some(i)))
             .collect();
         // torques of brakes are not negative; roads lie still
-        let u: Vec<f64> =
-            plant.inputs().iter().zip(driven).map(|(i, d)| if d { i.nominal * (0.5 + 0.3 * numbers.next()) } else { i.default }).collect();
+        let u: Vec<f64> = plant
+            .inputs()
+            .iter()
+            .zip(driven)
+            .map(|(i, d)| if d { i.nominal * (0.5 + 0.3 * numbers.signed()) } else { i.default })
+            .collect();
         let mut yd = vec![0.0; y.len()];
         plant.project(0.0, &mut y, &u, &[]).unwrap_or_else(|error| panic!("{model}: {error:?}"));
         plant.solve_rates(0.0, &mut y, &u, &mut yd).unwrap_or_else(|error| panic!("{model}: {error:?}"));
@@ -208,7 +212,7 @@ fn derivatives_are_exact_in_every_formulation() {
             let mut point = Point::general(model, formulation, &mut numbers);
             // off the constraints, with corrections: nothing may vanish by chance
             for (y, unknown) in point.y.iter_mut().zip(point.plant.unknowns()) {
-                *y += 1e-2 * unknown.nominal.min(1.0) * numbers.next();
+                *y += 1e-2 * unknown.nominal.min(1.0) * numbers.signed();
             }
             let (ny, nu) = (point.y.len(), point.u.len());
             let nominal: Vec<f64> = point.plant.unknowns().iter().map(|k| k.nominal).collect();

@@ -1,6 +1,5 @@
 //! Every kind of constraint, assembled from its own example: nothing is listed here, a new row of the table of kinds is held at once.
 
-use super::motion::Numbers;
 use mbody::assembly::{Assembled, ConstraintKind, EXAMPLE_TREE, assemble};
 use mbody::description::Library;
 use mbody::description::finding::{Findings, Severity};
@@ -9,6 +8,7 @@ use problem::{At, Dae, Differentiable, EquationKind, Explicit, Matrix, Projectio
 use std::borrow::Cow;
 use validation::agreement::{Agreement, absolute};
 use validation::evidence::Row;
+use validation::numbers::Numbers;
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -94,12 +94,12 @@ fn states(mut hold: impl FnMut(&str, Formulation, State)) {
                 let mut y: Vec<f64> = plant.unknowns().iter().map(|u| u.design).collect();
                 for (y, unknown) in y.iter_mut().zip(plant.unknowns()) {
                     match unknown.kind {
-                        UnknownKind::Position => *y += 0.1 * numbers.next(),
-                        UnknownKind::Velocity => *y = numbers.next(),
+                        UnknownKind::Position => *y += 0.1 * numbers.signed(),
+                        UnknownKind::Velocity => *y = numbers.signed(),
                         _ => {}
                     }
                 }
-                let u: Vec<f64> = plant.inputs().iter().map(|_| 0.05 * numbers.next()).collect();
+                let u: Vec<f64> = plant.inputs().iter().map(|_| 0.05 * numbers.signed()).collect();
                 plant.project(0.0, &mut y, &u, &[]).unwrap_or_else(|e| panic!("{}: {e:?}", kind.name));
                 let mut yd = vec![0.0; y.len()];
                 plant.solve_rates(0.0, &mut y, &u, &mut yd).expect("accelerations");

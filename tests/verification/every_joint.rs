@@ -1,11 +1,11 @@
 //! Every kind of joint: what is written by hand for speed equals what follows from the pose.
 
-use super::motion::Numbers;
 use mbody::joint::{Joint, KINDS};
 use mbody::scalar::{Lanes, Real};
 use mbody::spatial::{Pose, Rotation, Twist, Vec3, Wrench};
 use validation::agreement::{Agreement, Tolerance, relative};
 use validation::evidence::Row;
+use validation::numbers::Numbers;
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -30,7 +30,7 @@ const ROUNDING: Tolerance = relative(1e-13).because("double precision, a few doz
 const SHORT: Tolerance = relative(1e-14).because("double precision, a few operations");
 
 fn vector(numbers: &mut Numbers) -> Vec3<f64> {
-    Vec3::new(numbers.next(), numbers.next(), numbers.next())
+    Vec3::new(numbers.signed(), numbers.signed(), numbers.signed())
 }
 
 fn axis(numbers: &mut Numbers) -> Vec3<f64> {
@@ -61,15 +61,15 @@ fn cases() -> Vec<Case> {
                 2 => Vec3::new(0.0, 0.0, 1.0),
                 _ => axis(&mut numbers),
             };
-            let joint = (kind.make)(axis, 0.3 * numbers.next());
-            let mut q: Vec<f64> = joint.reference().iter().map(|_| numbers.next()).collect();
+            let joint = (kind.make)(axis, 0.3 * numbers.signed());
+            let mut q: Vec<f64> = joint.reference().iter().map(|_| numbers.signed()).collect();
             // a group of coordinates whose reference is (0, 0, 0, 1) is a quaternion
             if let Some(first) = joint.coordinates().iter().position(|c| c.name == "quaternion_x") {
                 let quaternion = &mut q[first..first + 4];
                 let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
                 quaternion.iter_mut().for_each(|x| *x /= norm);
             }
-            let v = (0..joint.nv()).map(|_| 2.0 * numbers.next()).collect();
+            let v = (0..joint.nv()).map(|_| 2.0 * numbers.signed()).collect();
             cases.push(Case { name: format!("{} {round}", kind.name), joint, q, v });
         }
     }
@@ -171,7 +171,7 @@ fn a_joint_does_not_see_where_it_is_mounted() {
     let mut numbers = Numbers(11);
     for case in cases() {
         let angles = vector(&mut numbers);
-        let X_PF = Pose::from_xyz_rpy([numbers.next(), numbers.next(), numbers.next()], [angles.x, angles.y, angles.z]);
+        let X_PF = Pose::from_xyz_rpy([numbers.signed(), numbers.signed(), numbers.signed()], [angles.x, angles.y, angles.z]);
         let (mut here, mut there) = (vec![Twist::zero(); case.joint.nv()], vec![Twist::zero(); case.joint.nv()]);
         let X_FM = case.joint.place(&Pose::identity(), &case.q, &mut here);
         let X_PM = case.joint.place(&X_PF, &case.q, &mut there);

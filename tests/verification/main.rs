@@ -12,7 +12,6 @@ mod inclines;
 mod invariance;
 mod linear;
 mod mechanisms;
-mod motion;
 mod recorded;
 mod responses;
 mod ride;

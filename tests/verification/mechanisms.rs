@@ -1,6 +1,5 @@
 //! Mechanisms of our own, a tree of the size of a humanoid and the benchmark motorcycle against an independent code, and identities.
 
-use super::motion::Numbers;
 use super::recorded::{Mechanism, State};
 use mbody::algorithm::aba::aba;
 use mbody::algorithm::crba::crba;
@@ -16,6 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use problem::Matrix;
 use validation::agreement::{Agreement, Tolerance, absolute, relative};
 use validation::evidence::Row;
+use validation::numbers::Numbers;
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -255,7 +255,7 @@ fn recursive_derivatives_agree() {
         let mut q = s.q.clone();
         let free = model.bodies()[1].q.len() == 7;
         q[..if free { 3 } else { 0 }].iter_mut().for_each(|p| *p += 1e4);
-        let v: Vec<f64> = s.v.iter().map(|_| 3.0 * numbers.next()).collect();
+        let v: Vec<f64> = s.v.iter().map(|_| 3.0 * numbers.signed()).collect();
         let at = Motion { q: &q, v: &v, vd: &s.vd };
         recursion.run(model, at, &mut dq, &mut dv);
         rnea_derivatives(model, at, &mut PerScalar::new(model), &mut dual_q, &mut dual_v);
@@ -288,8 +288,8 @@ fn inverse_and_forward_dynamics_undo_each_other() {
     let undone = relative(1e-10).because("conditioning of light distal links");
     let mut numbers = Numbers(17);
     states(|m, s, what| {
-        let v: Vec<f64> = s.v.iter().map(|_| 3.0 * numbers.next()).collect();
-        let tau: Vec<f64> = s.v.iter().map(|_| 50.0 * numbers.next()).collect();
+        let v: Vec<f64> = s.v.iter().map(|_| 3.0 * numbers.signed()).collect();
+        let tau: Vec<f64> = s.v.iter().map(|_| 50.0 * numbers.signed()).collect();
         let vd = forward(m.model(), &s.q, &v, &tau);
         agreement.all_near(what, &inverse(m.model(), &s.q, &v, &vd), &tau, &undone);
     });
@@ -352,7 +352,7 @@ fn a_free_flying_tree_keeps_energy_and_momentum() {
     let model = tree.model();
     let mut numbers = Numbers(3);
     let state = &tree.states[0];
-    let v = (0..model.layout().nv()).map(|_| numbers.next());
+    let v = (0..model.layout().nv()).map(|_| numbers.signed());
     let start: Vec<f64> = state.q.iter().copied().chain(v).collect();
     let (energy, momentum, spin) = invariants(model, &start);
     let duration = 0.4;

@@ -16,6 +16,7 @@ use std::f64::consts::TAU;
 use validation::agreement::{Agreement, absolute, relative};
 use validation::course::By;
 use validation::evidence::Row;
+use validation::numbers::Numbers;
 use validation::rode::{Care, Rode, read};
 use validation::vehicle::{Vehicle, running, turning};
 
@@ -126,16 +127,6 @@ impl Riding {
     }
 }
 
-/// Numbers between −1 and 1, the same in every run.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
-
 #[test]
 fn derivatives_of_the_closed_loop_are_exact() {
     let mut agreement = Agreement::on("derivatives of the closed loop");
@@ -145,7 +136,7 @@ fn derivatives_of_the_closed_loop_are_exact() {
         let mut numbers = Numbers(7);
         let nominal: Vec<f64> = riding.closed.unknowns().iter().map(|k| k.nominal).collect();
         for (y, nominal) in riding.y.iter_mut().zip(&nominal) {
-            *y += 0.01 * nominal * numbers.next();
+            *y += 0.01 * nominal * numbers.signed();
         }
         riding.solve();
         let (n, nu) = (riding.y.len(), riding.u.len());

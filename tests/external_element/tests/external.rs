@@ -1,15 +1,18 @@
 //! What a crate outside can do with its own elements, and what is asked of them.
 
-use external_element::{BrushParameters, EddyCurrentDamper, kinds};
+use external_element::{BrushParameters, EddyCurrentDamper, KINDS, kinds};
 use fastbike::run_captured;
-use mbody::assembly::assemble;
-use mbody::dynamics::TreePlant;
 use mbody::model::BodyIndex;
 use motorcycle::tire::{LawParameters, Slip, TireLaw, conformity};
-use problem::{At, Dae, Differentiable, Matrix, Seeds};
 use serde_json::Value;
+use validation::conformity::Conformity;
 
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/models/mybike.yaml");
+
+/// A tire with the friction law of the crate.
+const BRUSH: &str = "{ wheel: front_axle, radius: 0.3 m, crown: { torus: { radius: 60 mm } }, road: front_road, \
+     law: { brush: { cornering_stiffness: 12, camber_stiffness: 0.9, friction: 1.2, half_length: 0.045 } }, \
+     carcass: { deformable: { radial: { stiffness: 150 kN/m, damping: 300 N s/m }, lateral: { stiffness: 160 kN/m, damping: 100 N s/m } } } }";
 
 fn brush() -> BrushParameters {
     BrushParameters { cornering_stiffness: 12.0, camber_stiffness: 0.9, friction: 1.2, half_length: 0.05 }
@@ -50,55 +53,16 @@ fn the_damper_fades() {
     }
 }
 
-/// Derivatives of all rows and outputs along every unknown against central differences; power of the whole vehicle balances.
+/// What is asked of every kind of FastBike itself: schema, exact derivatives, balance of power, symmetry of the road, no allocation.
 #[test]
-fn the_vehicle_is_differentiable_and_keeps_its_energy() {
-    let source = fastbike::library::Source::find(MODEL).expect("the model");
-    let (assembled, findings) = assemble(&source.file, &source, &kinds(), &[]);
-    let system = assembled.unwrap_or_else(|| panic!("{findings}")).system;
-    let mut plant = TreePlant::new(system.clone());
-    let n = plant.unknowns().len();
-    let mut y: Vec<f64> = plant.unknowns().iter().map(|u| u.design).collect();
-    for (k, (value, unknown)) in y.iter_mut().zip(system.unknowns()).enumerate() {
-        *value += 0.01 * unknown.nominal * (k as f64).sin();
-        if unknown.signal.name == "chassis.forward_speed" {
-            *value += 20.0;
-        }
-        if unknown.signal.name.ends_with("_wheel.spin_rate") {
-            *value += 68.0;
-        }
-        if unknown.signal.name == "steer.rate" {
-            *value = 2.0;
-        }
-        if unknown.signal.name == "chassis.heave" {
-            *value -= 0.01;
-        }
-    }
-    let (yd, u) = (vec![0.0; n], system.inputs().iter().map(|i| i.default).collect::<Vec<f64>>());
-    let (rows, outputs) = (plant.equations().len(), system.outputs().len());
-    let mut seeds = Seeds::zeros(n, u.len(), n);
-    (0..n).for_each(|k| seeds.y[(k, k)] = 1.0);
-    let (mut r, mut z) = (vec![0.0; rows], vec![0.0; outputs]);
-    let (mut dr, mut dz) = (Matrix::zeros(rows, n), Matrix::zeros(outputs, n));
-    plant.along(At { time: 0.0, y: &y, yd: &yd, u: &u }, &seeds, (&mut r, &mut z), &mut dr, &mut dz).expect("finite");
-    for k in 0..n {
-        let h = 1e-5 * system.unknowns()[k].nominal;
-        let mut at = |by: f64| {
-            let mut moved = y.clone();
-            moved[k] += by;
-            let mut r = vec![0.0; rows];
-            plant.residual(At { time: 0.0, y: &moved, yd: &yd, u: &u }, &mut r).expect("finite");
-            r
-        };
-        let (low, high) = (at(-h), at(h));
-        for i in 0..rows {
-            let (found, exact) = ((high[i] - low[i]) / (2.0 * h), dr[(i, k)]);
-            let largest = dr.column(k).iter().fold(1.0f64, |most, d| most.max(d.abs()));
-            assert!((found - exact).abs() < 1e-5 * largest, "row {i} along `{}`: {exact} {found}", system.unknowns()[k].signal.name);
-        }
-    }
-    let damper = system.outputs().iter().position(|o| o.name == "magnet_damper.torque").expect("the damper");
-    assert!((z[damper] - 2.0 * 20.8 * (2.0 / 6.0) / (1.0 + 1.0 / 9.0)).abs() < 1e-9);
+fn the_elements_conform() {
+    let conformity = Conformity::of(kinds(), KINDS, &[("tire", BRUSH)]);
+    conformity.the_schema_accepts_every_example_and_refuses_unknown_keys();
+    conformity.derivatives_are_exact();
+    conformity.energy_is_accounted_for();
+    conformity.nothing_depends_on_place_and_heading();
+    conformity.dual_numbers_carry_the_same_values();
+    conformity.evaluation_allocates_nothing(|run| allocation_counter::measure(run).count_total);
 }
 
 #[test]

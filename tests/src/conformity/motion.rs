@@ -1,14 +1,15 @@
 //! An element on its example tree, in motion: states in general position, at rest rates of element states, moved bases.
 
-use mbody::assembly::{Assembled, ElementKind, assemble};
+use crate::numbers::Numbers;
+use crate::reference::repository_text;
+use mbody::assembly::{Assembled, ElementKind, Kinds, assemble};
 use mbody::description::Library;
 use mbody::description::finding::Findings;
 use mbody::dynamics::{System, TreePlant};
 use nalgebra::{DMatrix, DVector};
 use problem::{At, Dae, Differentiable, EquationKind, Matrix, Outputs, Seeds, UnknownKind};
 use std::borrow::Cow;
-use std::sync::{Arc, LazyLock};
-use validation::reference::repository_text;
+use std::sync::Arc;
 
 /// The tree of an example and a description of one element; files of tires come from the bundled models.
 struct Texts {
@@ -28,21 +29,9 @@ impl Library for Texts {
 }
 
 /// Assembles the tree of a kind with elements given as YAML.
-pub fn on_tree(kind: &ElementKind, elements: &str) -> (Option<Assembled>, Findings) {
+pub fn on_tree(kinds: &Kinds, kind: &ElementKind, elements: &str) -> (Option<Assembled>, Findings) {
     let description = format!("fastbike: 1\nname: example\nurdf: tree.urdf\nbase: vehicle_base\nelements: {elements}\n");
-    assemble("example.yaml", &Texts { tree: kind.tree, description }, &fastbike::standard_kinds(), &[])
-}
-
-/// Numbers without a pattern: a linear congruential generator (constants of D. Knuth's MMIX), the upper bits of its state.
-#[derive(Clone, Debug)]
-pub struct Numbers(pub u64);
-
-impl Numbers {
-    /// The next number from −1 to 1.
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
+    assemble("example.yaml", &Texts { tree: kind.tree, description }, kinds, &[])
 }
 
 /// What the vehicle does.
@@ -62,48 +51,39 @@ pub enum Regime {
 pub const REGIMES: [Regime; 4] = [Regime::Straight, Regime::Leaning, Regime::Braking, Regime::Flying];
 
 /// The example of a kind, assembled, and its tree without elements.
+#[derive(Debug)]
 pub struct Example {
+    /// The kind.
     pub kind: ElementKind,
     system: Arc<System>,
     bare: Arc<System>,
 }
 
-/// Elements beside the examples: what the shortest written form of a kind leaves to a file.
-const BESIDE: [(&str, &str); 2] = [
-    ("tire", "{ wheel: front_axle, law: { tir: mf61_example.tir }, road: front_road }"),
-    (
-        "tire",
-        "{ wheel: front_axle, radius: 0.3 m, crown: { torus: { radius: 60 mm } }, law: { tir: { file: mf52_example.tir, beyond_fit: extrapolate } }, \
-         carcass: { deformable: { radial: { stiffness: 150 kN/m, damping: 300 N s/m }, lateral: { stiffness: 160 kN/m, damping: 100 N s/m } } } }",
-    ),
-];
-
-/// The examples of all kinds, assembled once.
-pub fn examples() -> &'static [Example] {
-    static EXAMPLES: LazyLock<Vec<Example>> = LazyLock::new(|| {
-        let assembled = |kind: &ElementKind, elements: &str| {
-            let (assembled, findings) = on_tree(kind, elements);
+impl Example {
+    /// An element of the kind as `written`.
+    ///
+    /// # Panics
+    /// Where it is refused.
+    pub fn of(kinds: &Kinds, kind: &ElementKind, written: &str) -> Self {
+        let assembled = |elements: &str| {
+            let (assembled, findings) = on_tree(kinds, kind, elements);
             assembled.unwrap_or_else(|| panic!("{}: {findings}", kind.name)).system
         };
-        let example = |kind: &ElementKind, written: &str| Example {
-            system: assembled(kind, &format!("{{ example: {{ {}: {written} }} }}", kind.name)),
-            bare: assembled(kind, "{}"),
-            kind: *kind,
-        };
-        let kinds = fastbike::standard_kinds();
-        let kind = |name: &str| kinds.elements().iter().find(|k| k.name == name).expect("a kind");
-        let beside = BESIDE.iter().map(|(name, written)| example(kind(name), written));
-        kinds.elements().iter().map(|kind| example(kind, kind.example)).chain(beside).collect()
-    });
-    &EXAMPLES
+        Self { system: assembled(&format!("{{ example: {{ {}: {written} }} }}", kind.name)), bare: assembled("{}"), kind: *kind }
+    }
 }
 
 /// A plant with its arguments, and the same tree without elements.
 pub struct Motion {
+    /// With the element.
     pub plant: TreePlant,
+    /// Without it.
     pub bare: TreePlant,
+    /// Unknowns.
     pub y: Vec<f64>,
+    /// Their rates.
     pub yd: Vec<f64>,
+    /// Inputs.
     pub u: Vec<f64>,
 }
 
@@ -142,8 +122,8 @@ impl Motion {
             Regime::Braking => (-0.4, -0.07),
             Regime::Flying => (0.2, 0.0),
         };
-        let speed = 22.0 + 8.0 * numbers.next();
-        let spread = |nominal: f64, numbers: &mut Numbers| nominal * numbers.next();
+        let speed = 22.0 + 8.0 * numbers.signed();
+        let spread = |nominal: f64, numbers: &mut Numbers| nominal * numbers.signed();
         for (i, unknown) in self.plant.unknowns().iter().enumerate() {
             let (owner, quantity) = unknown.signal.name.split_once('.').expect("owner and quantity");
             let wheel = owner.ends_with("wheel") || owner.ends_with("axle");
@@ -165,7 +145,7 @@ impl Motion {
         }
         for (i, input) in self.plant.inputs().iter().enumerate() {
             // torques of brakes are not negative
-            self.u[i] = input.nominal * (0.5 + 0.3 * numbers.next());
+            self.u[i] = input.nominal * (0.5 + 0.3 * numbers.signed());
         }
         self.settle(regime, numbers);
         self.make_consistent();
@@ -175,7 +155,7 @@ impl Motion {
     fn settle(&mut self, regime: Regime, numbers: &mut Numbers) {
         let Some(deflection) = self.plant.outputs().iter().position(|o| o.name == "example.deflection") else { return };
         let heave = self.unknown("heave");
-        let target = if matches!(regime, Regime::Flying) { -0.02 } else { 0.009 + 0.003 * numbers.next() };
+        let target = if matches!(regime, Regime::Flying) { -0.02 } else { 0.009 + 0.003 * numbers.signed() };
         for _ in 0..40 {
             let (_, z) = self.evaluate();
             self.y[heave] -= 0.7 * (target - z[deflection]);
