@@ -19,7 +19,7 @@
 //! In λ̇ the row has the slope `cl cos γ + cr sin²γ/cos γ + (cr − cl) (Fy/N) sin γ − ∂Fy/∂V_sy/cos γ`. Where a leaning wheel uses its friction up, Fy/N near
 //! 1 to the side of the lean and cr > cl, it can vanish (as in the paradox of Painlevé): the patch may then snap back without load, and a motion ends
 //! there. It stays positive up to the peak of Fy where `cl/cr > (μ t − t²)/(1 + μ t)`, t = tan |γ|. The right side is largest, and then t² itself, where
-//! `t = (√(1 + μ²) − 1)/μ`: 0.172 for μ = 1, 0.243 for μ = 1.3.
+//! `t = (√(1 + μ²) − 1)/μ`: 0.172 for μ = 1, 0.243 for μ = 1.3. Past the peak the friction that falls with slip takes from it, the more the slower the wheel.
 //!
 //! Source: our formulation of the idea of R. Lot, A motorcycle tire model for dynamic simulations, Meccanica 39 (2004) 207–220.
 //! Range: camber below 75 degrees; cl > 0 keeps the row of λ regular at vanishing load.
