@@ -1,5 +1,6 @@
 //! Rides: the virtual rider follows the bundled maneuvers, the way a motorcycle is steered.
 
+use fastbike::plan::Request;
 use mbody::description::OneText;
 use mbody::description::finding::Findings;
 use validation::agreement::{Agreement, absolute};
@@ -21,6 +22,17 @@ pub const EVIDENCE: &[Row] = validation::evidence![
          this path",
         "V. Cossalter, R. Lot, F. Maggio, FastBike (Fig. 4): the maneuver; its measured histories are not public. Peak of the quintic 10 w V²/(√3 L²) = 8.1 m/s²",
         "roll 0.4 to 1.2 times atan(8.1/9.81), since the rider cuts the corners; torque below 100 N m, what two arms exert"
+    ),
+    the_ride_at_full_throttle_ends_at_the_top_speed => (
+        "`gsxr1000` in its sixth gear and `scooter` behind its variator ride `top_speed`: after 150 s at full throttle they have the top speed of the steady state; the engine is never asked for more \
+         than it gives, and the integral of the speed does not grow meanwhile",
+        "`trim --top-speed`",
+        "1e-5 of the speed: what e^(−t/T) leaves; margin −1e-3 N m: table of 1000 speeds of the wheel"
+    ),
+    a_speed_out_of_reach_does_not_wind_the_rider_up => (
+        "`gsxr1000` asked for 110 m/s during half a minute and then for 70 m/s: it is there at once and holds it",
+        "the speed asked for",
+        "0.3 m/s six seconds after the demand is level: the speed loop of 0.7 rad/s"
     ),
     left_turns_begin_with_the_bar_to_the_right => (
         "`gsxr1000` and `ref11`, lane changes to the left at 15, 25 and 35 m/s: the first steering torque and the first steering angle are to the right, then the \
@@ -128,6 +140,40 @@ fn the_lane_change_of_the_paper() {
         25.0,
         &absolute(0.5).because("held"),
     );
+    agreement.assert();
+}
+
+#[test]
+fn the_ride_at_full_throttle_ends_at_the_top_speed() {
+    let mut agreement = Agreement::on("top speed");
+    for model in ["gsxr1000", "scooter"] {
+        let vehicle = Vehicle::bundled(model);
+        let fastest = vehicle.state(&Request { top_speed: true, ..Request::default() }).get("chassis.forward_speed");
+        let watched = ["chassis.forward_speed", "engine.torque_margin", "rider.speed_integral"];
+        let rode = Rode::of(&vehicle, read("top_speed", &[]), Care::USUAL, &watched);
+        let (speed, margin) = (rode.signal("chassis.forward_speed"), rode.signal("engine.torque_margin"));
+        agreement.holds(rode.ending(), rode.ending() == "reached");
+        let near = absolute(1e-5 * fastest).because("what is left of the way to it");
+        agreement.near(&format!("{model}: top speed, m/s"), speed[speed.len() - 1], fastest, &near);
+        let least = margin.iter().copied().fold(f64::INFINITY, f64::min);
+        agreement.holds(&format!("{model}: margin of the engine {least} N m"), least > -1e-3);
+        let integral = rode.peak("rider.speed_integral");
+        agreement.holds(&format!("{model}: integral of the speed {integral} m"), integral < 0.1);
+    }
+    agreement.assert();
+}
+
+#[test]
+fn a_speed_out_of_reach_does_not_wind_the_rider_up() {
+    let changes = ["speed=60", "speed_over_time=[[0, 60], [1, 60], [2, 110], [30, 110], [36, 70]]", "duration=60"].map(String::from);
+    let rode = Rode::of(&Vehicle::bundled("gsxr1000"), read("top_speed", &changes), Care::USUAL, &["chassis.forward_speed"]);
+    let mut agreement = Agreement::on("a speed out of reach");
+    let held = absolute(0.3).because("six seconds of a loop of 0.7 rad/s");
+    for (time, speed) in rode.history.time.iter().zip(rode.signal("chassis.forward_speed")).filter(|(time, _)| **time > 42.0) {
+        agreement.near(&format!("speed at {time} s"), *speed, 70.0, &held);
+    }
+    let lowest = rode.signal("chassis.forward_speed").iter().skip(3600).copied().fold(f64::INFINITY, f64::min);
+    agreement.holds(&format!("lowest speed {lowest} m/s"), lowest > 69.0);
     agreement.assert();
 }
 

@@ -7,8 +7,10 @@
 //!
 //! **Speed.** Demanded acceleration `b = b_t + k_v (V_t − V) + k_i ∫(V_t − V) dt` with the target V_t of the maneuver and its rate b_t; wheel torque
 //! `T = T₀ + M b`. The engine takes what is positive, the brakes what is negative, with the front share `p = p₀ − p₁ b`; near zero both change over by a smooth ramp.
+//! The engine gives `min(T, T_full(Ω))`, smoothly. Where it gives all it can, the integral of a speed that is too low stands still: `d/dt ∫ = (V_t − V) (1 − f g)`, f from 0 to 1 where T passes T_full, g from 0 to 1 where
+//! V_t passes V; it begins to move where the demand is within reach again.
 //!
-//! Symbols: V_x, V_y speed of the base point, m/s; τ steering torque, N m; M wheel torque per acceleration, N s².
+//! Symbols: V_x, V_y speed of the base point, m/s; τ steering torque, N m; M wheel torque per acceleration, N s²; T_full wheel torque at full throttle, N m, over the speed Ω of the joint that the engine turns with, rad/s.
 //!
 //! Source: theory manual 10.1 (arc length as a state), 10.2, 10.6. Range: speeds within the table of the schedule; beyond it the gains of its edge hold. Offsets below the
 //! radius of the path.
@@ -16,10 +18,13 @@
 use super::schedule::Row;
 use super::{Lateral, Rider};
 use mbody::scalar::Real;
-use mbody::scalar::smooth::ramp;
+use mbody::scalar::smooth::{ramp, step};
 
 /// Wheel torque over which drive and brakes change over, N m.
 const CHANGE_OVER: f64 = 10.0;
+
+/// Speed error over which the integral of the speed comes to a standstill at full throttle, m/s.
+const TOO_SLOW: f64 = 0.1;
 
 /// Least speed that the rider reckons with, m/s: he divides by it.
 const SLOW: f64 = 0.5;
@@ -89,8 +94,9 @@ impl Rider {
             let braked = ramp(-whole + 0.5 * CHANGE_OVER, CHANGE_OVER) * self.settings.brake_per_drive;
             let share = -demanded * self.settings.front_share[1] + self.settings.front_share[0];
             let share = clamped(share);
-            reply.rates[integral] = lag;
-            reply.commands[1] = driven;
+            let (given, full) = self.given(driven, z);
+            reply.rates[integral] = lag * (-full * step(lag, TOO_SLOW) + 1.0);
+            reply.commands[1] = given;
             reply.commands[2] = braked * share;
             reply.commands[3] = braked * (-share + 1.0);
         }
@@ -98,6 +104,16 @@ impl Rider {
         let (offset, error) = (progress.offset, progress.heading_error);
         reply.outputs[..7].copy_from_slice(&[offset, error, place.curvature, target, place.x, place.y, at.1]);
         reply
+    }
+
+    /// What the engine gives of a wheel torque that is asked for, and how far it is at its limit, 0 to 1. z ends with the speed of the joint that it turns with.
+    fn given<S: Real>(&self, asked: S, z: &[S]) -> (S, S) {
+        let (Some((_, full)), Some(&turning)) = (&self.settings.full_throttle, z.last()) else { return (asked, S::zero()) };
+        let (first, last) = full.range();
+        let inside = (first..=last).contains(&turning.value());
+        let most = full.value(if inside { turning } else { S::from_f64(turning.value().clamp(first, last)) });
+        let beyond = asked - most + 0.5 * CHANGE_OVER;
+        (asked - ramp(beyond, CHANGE_OVER), step(beyond, CHANGE_OVER))
     }
 
     /// States of delay and muscles where the torque is steady.

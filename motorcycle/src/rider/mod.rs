@@ -13,7 +13,7 @@ use crate::chain_rule::along_directions;
 use crate::maneuver::Course;
 use cascade::CascadeSettings;
 use law::MOST;
-use mbody::scalar::{Lanes, SystemScalar};
+use mbody::scalar::{Lanes, Pchip, SystemScalar};
 use problem::{Answer, AnswerAlong, Controller, EvalError, Matrix, Signal, Unknown, UnknownKind};
 use schedule::{Row, Table};
 
@@ -56,6 +56,8 @@ pub struct Settings {
     pub brake_per_drive: f64,
     /// Front share of the brake torque at no acceleration, and by how much it grows per deceleration, s²/m.
     pub front_share: [f64; 2],
+    /// Speed of the joint that the engine turns with, and the wheel torque at full throttle over it, N m; none where the engine gives whatever is asked for.
+    pub full_throttle: Option<(String, Pchip)>,
     /// Reaction time, s.
     pub delay: Option<f64>,
     /// Natural frequency (rad/s) and damping ratio of the muscles.
@@ -200,7 +202,8 @@ impl Rider {
             signal("rider.path_y", "m", "place on the path, along y"),
             signal("rider.scheduled_acceleration", "m/s^2", "lateral acceleration for which steady state and gains are taken"),
         ];
-        let measured: Vec<String> = reins.base.into_iter().chain(reins.feedback).collect();
+        let turning = settings.full_throttle.iter().map(|(joint_speed, _)| joint_speed.clone());
+        let measured: Vec<String> = reins.base.into_iter().chain(reins.feedback).chain(turning).collect();
         let reads = measured.len() + states.len();
         Some(Self {
             row: Row::of(&table),

@@ -2,6 +2,8 @@
 //!
 //! The order is: assemble, trim, linearize, gains, rider. Nothing is tuned by hand; what the user may choose is what counts as much as what.
 
+mod driving;
+
 use crate::Failure;
 use crate::base::base_name;
 use crate::lateral::{self, Steering, steer};
@@ -12,6 +14,7 @@ use crate::small_motions::SmallMotions;
 use crate::steady;
 use analyses::LinearModel;
 use analyses::regulator::{Actuator, Course as Line, Design, Regulator};
+use driving::Driving;
 use mbody::description::finding::Finding;
 use mbody::dynamics::{System, TreePlant};
 use motorcycle::maneuver::{Course, RiderDescription};
@@ -41,8 +44,8 @@ const SPEED_BANDWIDTH: f64 = 0.7;
 pub const FRONT_BRAKE_SHARE: f64 = 0.7;
 /// Slowest speed of the table, m/s.
 const SLOWEST: f64 = 2.0;
-/// Accelerations at which driving and braking are measured, m/s².
-const PROBES: (f64, f64) = (0.5, -3.0);
+/// Wheel torque of the engine.
+const DRIVE: &str = "drive.torque";
 /// Largest distance of two nodes: share of the speed, and lateral acceleration, m/s².
 const SPEED_STEP: f64 = 0.2;
 const LATERAL_STEP: f64 = 2.0;
@@ -136,10 +139,18 @@ impl Task<'_> {
         let plant = TreePlant::new(self.system.clone());
         let base = ridable(&plant)?;
         let reins = reins(&plant, &base)?;
-        let speeds = speeds(course.speed.range());
+        let wanted = speeds(course.speed.range());
+        let speeds = if reins.commands.len() == 4 { self.reachable(wanted)? } else { wanted };
+        let fastest = speeds[speeds.len() - 1];
         let greatest = 1.15 * course.speed.greatest_lateral(&course.path) + 0.5;
         let (laterals, steady) = self.grid(&speeds, greatest)?;
         let mut warnings = Vec::new();
+        if fastest < course.speed.range().1 {
+            let asked = course.speed.range().1;
+            warnings.push(format!(
+                "the maneuver asks for up to {asked:.1} m/s; steady states end at {fastest:.1} m/s, whose gains hold beyond"
+            ));
+        }
         let reached = laterals.last().copied().unwrap_or_default();
         if reached < greatest - 1e-9 {
             warnings.push(format!(
@@ -188,6 +199,7 @@ impl Task<'_> {
             speed_integral_gain: SPEED_BANDWIDTH * SPEED_BANDWIDTH,
             brake_per_drive: per_speed.brake_per_drive,
             front_share: per_speed.front_share,
+            full_throttle: per_speed.full_throttle,
             delay: actuator.delay,
             lag: actuator.lag,
         };
@@ -306,56 +318,6 @@ impl Task<'_> {
         }
         Ok(found)
     }
-
-    /// How the speed answers to drive and brakes, from steady states that accelerate and brake.
-    fn driving(&self, speeds: &[f64], steady: &steady::Steady, laterals: usize) -> Result<Driving, Failure> {
-        let at = |name: &str| steady.signals.iter().position(|s| s.name == *name);
-        let value = |point: &Point, name: &str| at(name).map_or(f64::NAN, |k| point.value(k));
-        let middle = laterals / 2;
-        let driven = self.steady(speeds, &[0.0], Some(PROBES.0))?;
-        let braked = self.steady(speeds, &[0.0], Some(PROBES.1))?;
-        let mut driving = Driving::none(speeds);
-        let mut shares = Vec::new();
-        for (i, per) in driving.torque_per_acceleration.iter_mut().enumerate() {
-            let (level, faster, slower) = (&steady.points[i * laterals + middle], &driven.points[i], &braked.points[i]);
-            let drive = value(level, "drive.torque");
-            if faster.values.is_empty() || slower.values.is_empty() {
-                let message = format!("at {:.1} m/s the vehicle can neither gain nor lose speed steadily", speeds[i]);
-                return Err(Finding::error("no_steady_state", message).into());
-            }
-            *per = (value(faster, "drive.torque") - drive) / PROBES.0;
-            let brakes = value(slower, "front_brake.torque") + value(slower, "rear_brake.torque");
-            let load = |p: &Point| loads_of(&steady.signals, p, "front") / loads_of(&steady.signals, p, "");
-            shares.push((brakes / -(drive + *per * PROBES.1), load(level), (load(slower) - load(level)) / -PROBES.1));
-        }
-        let mean = |f: &dyn Fn(&(f64, f64, f64)) -> f64| shares.iter().map(f).sum::<f64>() / shares.len() as f64;
-        driving.brake_per_drive = mean(&|s| s.0);
-        driving.front_share = match mean(&|s| s.1).is_finite() {
-            true => [mean(&|s| s.1), mean(&|s| s.2)],
-            false => [self.front_brake_share, 0.0],
-        };
-        Ok(driving)
-    }
-}
-
-/// How the speed answers to drive and brakes.
-struct Driving {
-    torque_per_acceleration: Vec<f64>,
-    brake_per_drive: f64,
-    front_share: [f64; 2],
-}
-
-impl Driving {
-    fn none(speeds: &[f64]) -> Self {
-        Self { torque_per_acceleration: vec![1.0; speeds.len()], brake_per_drive: 1.0, front_share: [0.5, 0.0] }
-    }
-}
-
-/// Load of all tires whose names begin like this, N: `front_tire`, or `front_left_tire` and `front_right_tire`.
-fn loads_of(signals: &[Signal], point: &Point, beginning: &str) -> f64 {
-    let loads = signals.iter().enumerate().filter(|(_, s)| s.name.starts_with(beginning) && s.name.ends_with("_tire.normal_force"));
-    let loads: Vec<f64> = loads.map(|(k, _)| point.value(k)).collect();
-    if loads.is_empty() { f64::NAN } else { loads.iter().sum() }
 }
 
 /// States that the speed section holds: the speed itself and the spins of the wheels.
@@ -384,7 +346,7 @@ pub(crate) fn reins(plant: &TreePlant, base: &str) -> Result<Reins, Failure> {
         let finding = Finding::error("missing_input", "this model has no input `steer.torque`, so nobody can steer it");
         return Err(finding.with_hint("an element `steer: { joint_torque: { joint: steer } }` offers it").into());
     }
-    let speed = ["drive.torque", "front_brake.torque", "rear_brake.torque"];
+    let speed = [DRIVE, "front_brake.torque", "rear_brake.torque"];
     let mut commands = vec!["steer.torque".to_owned()];
     if speed.iter().all(|name| input(name)) {
         commands.extend(speed.map(str::to_owned));
