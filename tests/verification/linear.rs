@@ -1,8 +1,15 @@
 //! Linear models: structure that symmetry demands, and the steady states next to a steady state.
 
-use analyses::LinearModel;
+use analyses::linearize::Options;
+use analyses::{LinearModel, eigen, linearize};
+use mbody::dynamics::{System, TreePlant};
+use mbody::joint::{Joint, Spherical};
+use mbody::model::{BodyIndex, ModelBuilder};
+use mbody::spatial::{MassProperties, Pose, Vec3};
 use nalgebra::{DMatrix, DVector};
-use validation::agreement::{Agreement, absolute};
+use problem::{At, UnknownKind};
+use std::sync::Arc;
+use validation::agreement::{Agreement, absolute, relative};
 use validation::evidence::Row;
 use validation::vehicle::{BUNDLED, State, Vehicle, leaning, running};
 
@@ -17,6 +24,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "A, B, C and D at a steady turn predict the steady states next to it: `0 = A δx + B δu`, `δz = C δx + D δu`, with neighbors from the trim",
         "central differences of steady states, extrapolated (Richardson)",
         "relative 1e-6 of the largest term: tolerance of the method over the step"
+    ),
+    the_norm_of_a_quaternion_is_no_mode => (
+        "a rigid body that hangs from a spherical joint at any heading has two oscillations and an indifferent heading, six states; `scooter` with its engine on a spherical link has as many coordinates as velocities among its states",
+        "ω² = m g l/(I + m l²) about both horizontal axes",
+        "1e-12 of each frequency: double precision"
     ),
 ];
 
@@ -101,5 +113,39 @@ fn neighboring_steady_states_are_predicted() {
             }
         }
     }
+    agreement.assert();
+}
+
+#[test]
+fn the_norm_of_a_quaternion_is_no_mode() {
+    let (m, l, I, g) = (3.0, 0.4, [0.05, 0.11, 0.02], 9.81);
+    let mut agreement = Agreement::on("spherical pendulum: states and frequencies");
+    for heading in [0.0, 0.7, 2.5, -3.0] {
+        let mut builder = ModelBuilder::new();
+        let mass = MassProperties { mass: m, center: Vec3::new(0.0, 0.0, -l), inertia: [I[0], I[1], I[2], 0.0, 0.0, 0.0] };
+        builder.body("bob", BodyIndex::WORLD, "ball", Joint::new(Spherical), Pose::identity(), mass).expect("a body");
+        let system = System::new(builder.finish().expect("a tree"), Vec::new()).expect("a system");
+        let mut plant = TreePlant::new(Arc::new(system));
+        let half: f64 = 0.5 * heading;
+        let y = [0.0, 0.0, half.sin(), half.cos(), 0.0, 0.0, 0.0];
+        let at = At { time: 0.0, y: &y, yd: &[0.0; 7], u: &[] };
+        let model = linearize(&mut plant, at, &Options::default()).expect("a linear model");
+        agreement.holds(&format!("heading {heading}: {} states", model.states.len()), model.states.len() == 6);
+        // the coordinate that is left out follows the others along the sphere
+        let follows = DVector::from_iterator(4, y[..4].iter().copied()).transpose() * model.unknowns.rows(0, 4);
+        agreement.holds(&format!("heading {heading}: {follows}"), follows.amax() < 1e-15);
+        let spectrum = eigen(&model).expect("eigenvalues");
+        let mut expected = [I[0], I[1]].map(|I| (m * g * l / (I + m * l * l)).sqrt());
+        expected.sort_by(|a, b| b.total_cmp(a));
+        for (pair, frequency) in spectrum.values.chunks(2).zip(expected) {
+            agreement.near(&format!("heading {heading}: {}", pair[0]), pair[0].im, frequency, &relative(1e-12).because("double precision"));
+        }
+        agreement.holds("the heading is indifferent", spectrum.values[4..].iter().all(|v| v.norm() < 1e-7));
+    }
+    let scooter = Vehicle::bundled("scooter").state(&running(&[20.0])).linear();
+    let count = |kind: UnknownKind| scooter.states.iter().filter(|s| s.kind == kind).count();
+    // of the velocities the speed, two rates and two spins have cyclic coordinates
+    let cyclic = scooter.states.iter().filter(|s| s.kind == UnknownKind::Velocity && s.cyclic).count();
+    agreement.holds("coordinates and velocities of the scooter", count(UnknownKind::Position) == count(UnknownKind::Velocity) - cyclic);
     agreement.assert();
 }

@@ -19,7 +19,7 @@
 //! 4. `δẋ = S δξ̇ + Ṡ δξ`: G moves with the point where velocities change (braking). G is linear in v, so the entries of `Ġ` by the coordinates
 //!    are those of G at the velocities v̇ instead of v, and `Ṡ_D = −G_D⁻¹ Ġ S`. In steady motion `Ṡ = 0`.
 //!
-//! Without constraints S and W are the identity. A point with accelerations is frozen: E and A are those of the instant. Their eigenvalues
+//! Coordinates that no velocity moves, the norms of quaternions, are left out before (`normalized.rs`). Without constraints S and W are the identity. A point with accelerations is frozen: E and A are those of the instant. Their eigenvalues
 //! belong to the velocities chosen by the plant and change with them, since the point is no equilibrium.
 //!
 //! Source: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer 1996, VII.1–VII.2 (Hessenberg forms,
@@ -27,11 +27,13 @@
 
 mod independent;
 mod layout;
+mod normalized;
 mod tableau;
 
 use independent::Split;
 use layout::Layout;
 use nalgebra::DMatrix;
+use normalized::Following;
 use problem::{At, EvalError, Input, Plant, Signal, UnknownKind};
 use tableau::Tableau;
 use thiserror::Error;
@@ -248,7 +250,7 @@ pub enum LinearizeError {
 /// # Cost
 /// One call of `along` with a direction for every unknown, rate and input; dense elimination, O(n³).
 pub fn linearize(plant: &mut dyn Plant, at: At<'_>, options: &Options) -> Result<LinearModel, LinearizeError> {
-    let layout = Layout::of(plant)?;
+    let mut layout = Layout::of(plant)?;
     if let Some(name) =
         options.independent.iter().find(|name| !layout.differential.iter().any(|&i| plant.unknowns()[i].signal.name == **name))
     {
@@ -258,6 +260,7 @@ pub fn linearize(plant: &mut dyn Plant, at: At<'_>, options: &Options) -> Result
     if options.off_trim == OffTrim::Refuse {
         check_trim(plant, &layout, &residual, options.residual_tolerance)?;
     }
+    let following = normalized::leave_out(plant, &mut layout, &mut tableau);
     tableau.check_cyclic(plant, &layout)?;
     tableau.check_constraints(plant, &layout)?;
     let left_out_inputs = tableau.bound_inputs(plant, &layout);
@@ -279,7 +282,12 @@ pub fn linearize(plant: &mut dyn Plant, at: At<'_>, options: &Options) -> Result
         .eliminate(&holding, multipliers)
         .map_err(|shares| LinearizeError::Unheld { together: named(plant, &layout.multipliers, &shares) })?;
     let states = states(plant, &layout, &split, &pairs);
-    assemble(plant, &layout, &tableau, &split, states, &left_out_inputs)
+    let mut model = assemble(plant, &layout, &tableau, &split, states, &left_out_inputs)?;
+    for Following { unknown, shares } in following {
+        let row = shares.iter().map(|&(k, share)| share * split.S.row(k)).fold(split.S.row(0) * 0.0, |sum, row| sum + row);
+        model.unknowns.row_mut(unknown).copy_from(&row);
+    }
+    Ok(model)
 }
 
 /// Some of these unknowns, in back-ticks.

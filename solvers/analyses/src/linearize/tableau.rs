@@ -166,6 +166,31 @@ impl Tableau {
         (0..n).map(|k| if kind(k) == UnknownKind::Position { rate_of(k) } else { None }).collect()
     }
 
+    /// Puts `Σ share δx` in place of a differential unknown, and the same for the rates: to be removed afterwards.
+    pub(super) fn express(&mut self, unknown: usize, shares: &[(usize, f64)]) {
+        for part in [self.rates.start, self.states.start] {
+            let column = self.M.column(part + unknown).into_owned();
+            for &(k, share) in shares {
+                self.M.column_mut(part + k).axpy(share, &column, 1.0);
+            }
+        }
+    }
+
+    /// Removes differential unknowns and their rates.
+    pub(super) fn remove(&mut self, unknowns: &[usize]) {
+        let (rates, states) = (self.rates.start, self.states.start);
+        let gone = |column: usize| unknowns.iter().any(|k| column == rates + k || column == states + k);
+        let kept: Vec<usize> = (0..self.M.ncols()).filter(|&column| !gone(column)).collect();
+        self.M = self.M.select_columns(&kept);
+        self.column_scale = kept.iter().map(|&column| self.column_scale[column]).collect();
+        self.rates = 0..self.rates.len() - unknowns.len();
+        self.states = after(&self.rates, self.states.len() - unknowns.len());
+        self.algebraic = after(&self.states, self.algebraic.len());
+        self.multipliers = after(&self.algebraic, self.multipliers.len());
+        self.inputs = after(&self.multipliers, self.inputs.len());
+        self.cyclic = after(&self.inputs, self.cyclic.len());
+    }
+
     /// Expresses columns by the rows that determine them: `M ← M − M[:, c] M[r, c]⁻¹ M[r, :]`.
     ///
     /// # Errors
