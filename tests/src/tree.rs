@@ -14,6 +14,27 @@ use std::sync::Arc;
 /// Named values: `("crank.angle", 0.1)`.
 pub type Named = (&'static str, f64);
 
+/// A chain of equal links, each 0.1 m long and 1 kg, that hangs from the world by revolute joints about y and x in turn.
+///
+/// # Panics
+/// It does not assemble.
+pub fn chain(links: usize) -> Arc<System> {
+    let mut urdf = String::from("<robot name=\"chain\"><link name=\"ground\"/>");
+    for k in 0..links {
+        let (parent, drop) = if k == 0 { ("ground".to_owned(), 0.0) } else { (format!("link_{}", k - 1), -0.1) };
+        let axis = if k % 2 == 0 { "0 1 0" } else { "1 0 0" };
+        urdf += &format!(
+            "<link name=\"link_{k}\"><inertial><origin xyz=\"0 0 -0.05\"/><mass value=\"1\"/>\
+             <inertia ixx=\"0.001\" iyy=\"0.001\" izz=\"0.0002\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\
+             <joint name=\"joint_{k}\" type=\"continuous\"><parent link=\"{parent}\"/><child link=\"link_{k}\"/>\
+             <origin xyz=\"0 0 {drop}\"/><axis xyz=\"{axis}\"/></joint>"
+        );
+    }
+    urdf += "</robot>";
+    let (assembled, findings) = assemble_urdf("chain.urdf", &urdf, BaseDescription::Fixed, 9.81, &[]);
+    assembled.unwrap_or_else(|| panic!("{findings}")).system
+}
+
 /// A tree in motion.
 #[derive(Debug)]
 pub struct Tree {

@@ -6,17 +6,28 @@
 #![allow(non_snake_case)]
 
 mod clock;
+mod instructions;
 mod kernels;
 mod modes;
 mod motion;
 mod peer;
 mod plants;
 mod ride;
+mod scaling;
 mod sweep;
 
 use clock::Clock;
+use std::process::ExitCode;
 
-fn main() {
+fn main() -> ExitCode {
+    if let Some(mut clock) = instructions::counted() {
+        kernels::run(&mut clock);
+        plants::run(&mut clock);
+        return ExitCode::SUCCESS;
+    }
+    if instructions::asked() {
+        return if instructions::run() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    }
     let mut clock = Clock::from_arguments();
     kernels::run(&mut clock);
     plants::run(&mut clock);
@@ -24,5 +35,9 @@ fn main() {
     modes::run(&mut clock);
     motion::run(&mut clock);
     ride::run(&mut clock);
-    peer::print(&clock.finish());
+    scaling::run(&mut clock);
+    let measured = clock.finish();
+    peer::print(&measured);
+    scaling::print(&measured);
+    ExitCode::SUCCESS
 }
