@@ -96,6 +96,13 @@ fn keep<R: Results>(
         let text = written(kind, report, &Options::default(), &path.display().to_string())?;
         write(&path, &text)?;
     }
+    #[cfg(feature = "parquet")]
+    if let Some(history) = report.recording() {
+        let path = folder.join("results.parquet");
+        let unwritten = |e: std::io::Error| Failure::Write { path: path.display().to_string(), cause: e.to_string() };
+        let mut file = fs::File::create(&path).map_err(unwritten)?;
+        output::parquet::write(history, &mut file).map_err(unwritten)?;
+    }
     if let Some(figure) = figure {
         for (name, format) in [("figure.svg", FileFormat::Svg), ("figure.png", FileFormat::Png)] {
             write(&folder.join(name), &figure.encode(format)?)?;

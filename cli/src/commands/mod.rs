@@ -56,10 +56,11 @@ pub const KINDS: &[Kind] = &[
     schema::KIND,
 ];
 
-/// Version, profile, processor level and SUNDIALS version.
+/// Version, profile, processor level, SUNDIALS version, and whether recordings are kept as Parquet too.
 fn version() -> String {
     let level = if cfg!(target_feature = "avx2") { "x86-64-v3" } else { std::env::consts::ARCH };
-    format!("{} ({} build, {level}, SUNDIALS {})", env!("CARGO_PKG_VERSION"), env!("FASTBIKE_PROFILE"), sundials::version())
+    let parquet = if cfg!(feature = "parquet") { ", Parquet" } else { "" };
+    format!("{} ({} build, {level}, SUNDIALS {}{parquet})", env!("CARGO_PKG_VERSION"), env!("FASTBIKE_PROFILE"), sundials::version())
 }
 
 /// The whole command line.

@@ -19,6 +19,8 @@ pub mod modes;
 mod npz;
 pub mod number;
 mod palette;
+#[cfg(feature = "parquet")]
+pub(crate) mod parquet;
 mod progress;
 mod report;
 pub mod responses;
@@ -71,6 +73,10 @@ pub trait Results: Sized {
     fn writer(kind: &Kind) -> Writer<Self>;
     /// What the reader should know beside the results.
     fn warnings(&self) -> &[String];
+    /// The recording, where it is one.
+    fn recording(&self) -> Option<&History> {
+        None
+    }
     /// How much work it was, for the run folder.
     fn statistics(&self) -> serde_json::Value;
     /// Whether the goal was reached; of several points, one is enough.

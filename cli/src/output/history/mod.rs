@@ -93,6 +93,10 @@ impl Results for History {
         &self.warnings
     }
 
+    fn recording(&self) -> Option<&History> {
+        Some(self)
+    }
+
     fn statistics(&self) -> serde_json::Value {
         json::statistics(&self.outcome)
     }
