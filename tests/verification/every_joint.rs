@@ -15,7 +15,7 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "relative 1e-13: double precision, a few dozen operations"
     ),
     efforts_and_motions_are_the_columns_of_the_subspace => (
-        "the short forms of H v and Hᵀ F of every joint are those of its subspace",
+        "the short forms of H v, Hᵀ F and V × H v of every joint are those of its subspace, and so is what joints with six velocities are solved for",
         "definition",
         "relative 1e-14: double precision"
     ),
@@ -157,6 +157,29 @@ fn efforts_and_motions_are_the_columns_of_the_subspace() {
         case.joint.effort(&H, F, &mut tau);
         let expected: Vec<f64> = H.iter().map(|h| h.dot(F)).collect();
         agreement.all_near(&case.name, &tau, &expected, &SHORT);
+        let V_P = Twist::new(vector(&mut numbers), vector(&mut numbers));
+        let (V_J, (V, c)) = (sum(&H, &case.v), case.joint.carried(V_P, &case.q, &H, &case.v));
+        agreement.all_near(&format!("{}: carried", case.name), &flat(V), &flat(V_P + V_J), &SHORT);
+        let (bias, size) = (case.joint.bias(&case.q, &case.v) + (V_P + V_J).cross(V_J), case.v.iter().map(|v| 1.0 + v * v).sum::<f64>());
+        agreement.all_near(&format!("{}: bias", case.name), &flat(c).map(|x| size + x), &flat(bias).map(|x| size + x), &SHORT);
+        let columns = case.joint.columns(&H);
+        let dots: Vec<f64> = (0..H.len()).map(|a| columns.dot(a, &F)).collect();
+        agreement.all_near(&format!("{}: columns", case.name), &dots, &expected, &SHORT);
+        // what a joint that leaves all motions is solved for
+        agreement
+            .holds(&format!("{}: solves for all motions", case.name), case.joint.leaves_all() == case.joint.wrench(&H, &tau).is_some());
+        if let Some(back) = case.joint.wrench(&H, &tau) {
+            let wrench = |F: Wrench<f64>| [F.n.x, F.n.y, F.n.z, F.f.x, F.f.y, F.f.z];
+            agreement.all_near(&format!("{}: wrench", case.name), &wrench(back).map(|x| 10.0 + x), &wrench(F).map(|x| 10.0 + x), &ROUNDING);
+            let mut v = vec![0.0; H.len()];
+            case.joint.velocity(&H, V_P, &mut v);
+            agreement.all_near(
+                &format!("{}: velocity", case.name),
+                &flat(sum(&H, &v)).map(|x| 10.0 + x),
+                &flat(V_P).map(|x| 10.0 + x),
+                &ROUNDING,
+            );
+        }
         if let Some(axis) = case.joint.rotation_axis() {
             let along = H.iter().map(|h| h.w.cross(axis).norm()).fold(0.0, f64::max);
             agreement.holds(&format!("{}: turns about its axis", case.name), along < 1e-14);

@@ -1,49 +1,66 @@
 //! Forward dynamics: the accelerations that forces make, by the articulated-body algorithm.
 //!
 //! `U = Iᴬ H`, `D = Hᵀ U`, `u = τ − Hᵀ pᴬ`, `Iᵃ = Iᴬ − U D⁻¹ Uᵀ`, `pᵃ = pᴬ + Iᵃ c + U D⁻¹ u`, then outward
-//! `v̇ = D⁻¹ (u − Uᵀ A')`, `A = A' + H v̇`.
-//! Source: Featherstone (2008), table 7.1. Joints with several velocities factorize D (Cholesky, at most 6 × 6).
+//! `v̇ = D⁻¹ (u − Uᵀ A')`, `A = A' + H v̇`. A joint that leaves all six motions carries nothing but its effort, `Iᵃ = 0`, `pᵃ = H⁻ᵀ τ`, and
+//! `A = (Iᴬ)⁻¹ (H⁻ᵀ τ − pᴬ)`, `v̇ = H⁻¹ (A − A')`.
+//! Source: Featherstone (2008), table 7.1; floating bases: section 9.4. Joints with several velocities factorize D (at most 6 × 6).
 
 use crate::model::Model;
 use crate::scalar::SystemScalar;
-use crate::spatial::{ArticulatedInertia, Twist, Vec3, Wrench};
+use crate::spatial::{ArticulatedInertia, Component, Twist, Vec3, Wrench};
 use crate::stage::Workspace;
 
-/// Factorizes the leading n × n block in place: lower triangle L with `D = L Lᵀ`, its diagonal as reciprocals.
-#[inline]
-fn cholesky<S: SystemScalar>(D: &mut [[S; 6]; 6], n: usize) {
-    for j in 0..n {
-        let mut d = D[j][j];
-        for k in 0..j {
-            d -= D[j][k] * D[j][k];
-        }
-        let inverse = d.sqrt().recip();
-        D[j][j] = inverse;
-        for i in j + 1..n {
-            let mut s = D[i][j];
-            for k in 0..j {
-                s -= D[i][k] * D[j][k];
+/// Factorizes the leading n × n block in place: lower triangle L with ones on the diagonal, in place of which 1/d stands, `D = L d Lᵀ`.
+#[inline(always)]
+fn factorize<S: SystemScalar>(D: &mut [[S; 6]; 6], n: usize) {
+    for k in 0..n {
+        let inverse = D[k][k].recip();
+        for j in k + 1..n {
+            let l = D[j][k] * inverse;
+            for i in j..n {
+                let share = D[i][k] * l;
+                D[i][j] -= share;
             }
-            D[i][j] = s * inverse;
+        }
+        for j in k + 1..n {
+            D[j][k] *= inverse;
+        }
+        D[k][k] = inverse;
+    }
+}
+
+/// Solves `L d Lᵀ x = b` in place.
+#[inline(always)]
+fn solve<S: SystemScalar>(L: &[[S; 6]; 6], b: &mut [S; 6], n: usize) {
+    for i in 1..n {
+        for k in 0..i {
+            b[i] -= L[i][k] * b[k];
+        }
+    }
+    for i in (0..n).rev() {
+        b[i] *= L[i][i];
+        for k in i + 1..n {
+            b[i] -= L[k][i] * b[k];
         }
     }
 }
 
-/// Solves `L Lᵀ x = b` in place.
-#[inline]
-fn solve<S: SystemScalar>(L: &[[S; 6]; 6], b: &mut [S], n: usize) {
-    for i in 0..n {
-        for k in 0..i {
-            b[i] -= L[i][k] * b[k];
-        }
-        b[i] *= L[i][i];
-    }
-    for i in (0..n).rev() {
-        for k in i + 1..n {
-            b[i] -= L[k][i] * b[k];
-        }
-        b[i] *= L[i][i];
-    }
+/// Factors of the whole inertia of a body.
+#[inline(always)]
+fn factors<S: SystemScalar>(I: &ArticulatedInertia<S>) -> [[S; 6]; 6] {
+    let columns = Component::ALL.map(|b| I.column(b));
+    let mut D = Component::ALL.map(|a| columns.map(|column| column.along(a)));
+    factorize(&mut D, 6);
+    D
+}
+
+/// The motion that makes a wrench, by the factors of an inertia.
+#[inline(always)]
+fn motion_under<S: SystemScalar>(factors: &[[S; 6]; 6], F: Wrench<S>) -> Twist<S> {
+    let mut x = Component::ALL.map(|c| F.along(c));
+    solve(factors, &mut x, 6);
+    let [wx, wy, wz, vx, vy, vz] = x;
+    Twist::new(Vec3::new(wx, wy, wz), Vec3::new(vx, vy, vz))
 }
 
 /// Writes the tree accelerations into `w.acceleration.vd` (and body accelerations) for the motion in stages 1 and 2, the
@@ -58,22 +75,31 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
         w.articulated_bias[i] = V.cross_star(body.inertia.apply(V)) - w.applied[i];
     }
     for (i, body) in model.bodies.iter().enumerate().skip(1).rev() {
-        let (n, first) = (body.v.len(), body.v.start);
-        for j in body.v.clone() {
-            w.U[j] = w.articulated[i].times(w.position.H[j]);
-            w.u[j] = w.tau[j] - w.position.H[j].dot(w.articulated_bias[i]);
+        let (n, first, p) = (body.v.len(), body.v.start, body.parent.0);
+        let X = &w.position.X_PB[i];
+        if let Some(F) = body.joint.wrench(&w.position.H[body.v.clone()], &w.tau[body.v.clone()]) {
+            w.D[i] = factors(&w.articulated[i]);
+            w.articulated_bias[i] -= F;
+            if p != 0 {
+                w.articulated_bias[p] += X.wrench_to_parent(F);
+            }
+            continue;
+        }
+        let H = body.joint.columns(&w.position.H[body.v.clone()]);
+        for (a, j) in body.v.clone().enumerate() {
+            w.U[j] = H.carry_articulated(a, &w.articulated[i]);
+            w.u[j] = w.tau[j] - H.dot(a, &w.articulated_bias[i]);
         }
         let D = &mut w.D[i];
         for a in 0..n {
             for b in 0..=a {
-                D[a][b] = w.position.H[first + a].dot(w.U[first + b]);
+                D[a][b] = H.dot(a, &w.U[first + b]);
             }
         }
         match n {
             1 => D[0][0] = D[0][0].recip(),
-            _ => cholesky(D, n),
+            _ => factorize(D, n),
         }
-        let p = body.parent.0;
         if p == 0 {
             continue;
         }
@@ -91,19 +117,18 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
             solve(D, &mut x, n);
             let mut Y = [Wrench::zero(); 6];
             for a in 0..n {
-                let mut y = w.U[first + a];
+                Y[a] = w.U[first + a];
                 for b in 0..a {
-                    y -= Y[b].scaled(D[a][b]);
+                    let share = Y[b].scaled(D[a][b]);
+                    Y[a] -= share;
                 }
-                Y[a] = y.scaled(D[a][a]);
-                Ia.subtract_outer(Y[a], S::one());
+                Ia.subtract_outer(Y[a], D[a][a]);
             }
             pa += Ia.times(c);
             for a in 0..n {
                 pa += w.U[first + a].scaled(x[a]);
             }
         }
-        let X = &w.position.X_PB[i];
         w.articulated[p].add(&Ia.in_parent(X));
         w.articulated_bias[p] += X.wrench_to_parent(pa);
     }
@@ -111,18 +136,24 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
     w.acceleration.A_WB[0] = Twist::new(Vec3::zero(), Vec3::from_f64(-model.gravity));
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
         let (n, first) = (body.v.len(), body.v.start);
-        let mut A = w.position.X_PB[i].twist_to_child(w.acceleration.A_WB[body.parent.0]) + w.velocity.bias[i];
+        let (H, vd) = (&w.position.H[body.v.clone()], &mut w.acceleration.vd[body.v.clone()]);
+        let carried = w.position.X_PB[i].twist_to_child(w.acceleration.A_WB[body.parent.0]) + w.velocity.bias[i];
+        if body.joint.leaves_all() {
+            let A = motion_under(&w.D[i], -w.articulated_bias[i]);
+            body.joint.velocity(H, A - carried, vd);
+            w.acceleration.A_WB[i] = A;
+            continue;
+        }
         let mut x = [S::zero(); 6];
         for a in 0..n {
-            x[a] = w.u[first + a] - A.dot(w.U[first + a]);
+            x[a] = w.u[first + a] - carried.dot(w.U[first + a]);
         }
         if n == 1 {
             x[0] *= w.D[i][0][0];
         } else {
             solve(&w.D[i], &mut x, n);
         }
-        w.acceleration.vd[body.v.clone()].copy_from_slice(&x[..n]);
-        A += body.joint.motion(&w.position.H[body.v.clone()], &x[..n]);
-        w.acceleration.A_WB[i] = A;
+        vd.copy_from_slice(&x[..n]);
+        w.acceleration.A_WB[i] = carried + body.joint.motion(H, &x[..n]);
     }
 }

@@ -21,20 +21,22 @@ pub fn crba<S: SystemScalar>(model: &Model, position: &Position<S>, composite: &
             let in_parent = composite[i].in_parent(&position.X_PB[i]);
             composite[p] = composite[p].plus(&in_parent);
         }
-        for j in body.v.clone() {
-            let mut F = composite[i].times(position.H[j]);
-            for k in body.v.clone() {
-                M[k * nv + j] = position.H[k].dot(F);
+        let H = body.joint.columns(&position.H[body.v.clone()]);
+        for (a, j) in body.v.clone().enumerate() {
+            let mut F = H.carry(a, &composite[i]);
+            for (b, k) in body.v.clone().enumerate() {
+                M[k * nv + j] = H.dot(b, &F);
             }
-            let mut at = i;
-            while model.bodies[at].parent.0 != 0 {
-                F = position.X_PB[at].wrench_to_parent(F);
-                at = model.bodies[at].parent.0;
-                for k in model.bodies[at].v.clone() {
-                    let entry = position.H[k].dot(F);
-                    M[k * nv + j] = entry;
-                    M[j * nv + k] = entry;
+            let (mut X, mut at) = (&position.X_PB[i], p);
+            while at != 0 {
+                F = X.wrench_to_parent(F);
+                let carrier = &model.bodies[at];
+                let H = carrier.joint.columns(&position.H[carrier.v.clone()]);
+                for (b, k) in carrier.v.clone().enumerate() {
+                    let entry = H.dot(b, &F);
+                    (M[k * nv + j], M[j * nv + k]) = (entry, entry);
                 }
+                (X, at) = (&position.X_PB[at], carrier.parent.0);
             }
         }
     }

@@ -30,15 +30,12 @@ pub fn world<S: SystemScalar>(model: &Model, position: &Position<S>, world: &mut
 #[inline]
 pub fn velocity<S: SystemScalar>(model: &Model, position: &Position<S>, velocity: &mut Velocity<S>) {
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
-        let (q, v) = (&position.q[body.q.clone()], &velocity.v[body.v.clone()]);
-        let (V_J, c_J) = body.joint.motion_and_bias(q, &position.H[body.v.clone()], v);
+        let (q, v, H) = (&position.q[body.q.clone()], &velocity.v[body.v.clone()], &position.H[body.v.clone()]);
         let p = body.parent.0;
-        // V × V_J vanishes for a joint on the world
-        (velocity.V_WB[i], velocity.bias[i]) = if p == 0 {
-            (V_J, c_J)
-        } else {
-            let V = position.X_PB[i].twist_to_child(velocity.V_WB[p]) + V_J;
-            (V, c_J + V.cross(V_J))
+        // V × H v vanishes for a joint on the world
+        (velocity.V_WB[i], velocity.bias[i]) = match p {
+            0 => body.joint.motion_and_bias(q, H, v),
+            _ => body.joint.carried(position.X_PB[i].twist_to_child(velocity.V_WB[p]), q, H, v),
         };
     }
 }

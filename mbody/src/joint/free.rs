@@ -63,4 +63,10 @@ impl JointLaw for Free {
         (tau[0], tau[1], tau[2]) = (F.f.x, F.f.y, F.f.z);
         (tau[3], tau[4], tau[5]) = (F.n.x, F.n.y, F.n.z);
     }
+    fn wrench<S: Real>(&self, _H: &[Twist<S>], tau: &[S]) -> Option<Wrench<S>> {
+        Some(Wrench::new(Vec3::new(tau[3], tau[4], tau[5]), Vec3::new(tau[0], tau[1], tau[2])))
+    }
+    fn velocity<S: Real>(&self, _H: &[Twist<S>], V: Twist<S>, v: &mut [S]) {
+        v.copy_from_slice(&[V.v.x, V.v.y, V.v.z, V.w.x, V.w.y, V.w.z]);
+    }
 }

@@ -1,7 +1,8 @@
 //! What a joint is, and how the model stores it.
 
+use super::Columns;
 use crate::scalar::{Family, Jet, Make, PerScalar, Real, SystemScalar};
-use crate::spatial::{Pose, Twist, Vec3, Wrench};
+use crate::spatial::{Component, Pose, Twist, Vec3, Wrench};
 use std::fmt;
 use std::sync::Arc;
 
@@ -87,6 +88,12 @@ pub trait JointLaw: fmt::Debug + Send + Sync + 'static {
             *x = column.dot(F);
         }
     }
+    /// The F with `Hᵀ F = τ`, of joints that leave all six motions: H is square.
+    fn wrench<S: Real>(&self, _H: &[Twist<S>], _tau: &[S]) -> Option<Wrench<S>> {
+        None
+    }
+    /// The v with `H v = V`, of the joints that have a [`JointLaw::wrench`].
+    fn velocity<S: Real>(&self, _H: &[Twist<S>], _V: Twist<S>, _v: &mut [S]) {}
     /// `X_PF X_FM(q)`; override where the product is cheaper than its factors.
     #[inline(always)]
     fn placed<S: Real>(&self, X_PF: &Pose<f64>, q: &[S]) -> Pose<S> {
@@ -132,6 +139,8 @@ trait JointTwin<S>: Send + Sync {
     fn motion(&self, H: &[Twist<S>], v: &[S]) -> Twist<S>;
     fn motion_and_bias(&self, q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>);
     fn effort(&self, H: &[Twist<S>], F: Wrench<S>, tau: &mut [S]);
+    fn wrench(&self, H: &[Twist<S>], tau: &[S]) -> Option<Wrench<S>>;
+    fn velocity(&self, H: &[Twist<S>], V: Twist<S>, v: &mut [S]);
 }
 
 impl<J: JointLaw, S: SystemScalar> JointTwin<S> for J {
@@ -157,6 +166,12 @@ impl<J: JointLaw, S: SystemScalar> JointTwin<S> for J {
     fn effort(&self, H: &[Twist<S>], F: Wrench<S>, tau: &mut [S]) {
         JointLaw::effort(self, H, F, tau);
     }
+    fn wrench(&self, H: &[Twist<S>], tau: &[S]) -> Option<Wrench<S>> {
+        JointLaw::wrench(self, H, tau)
+    }
+    fn velocity(&self, H: &[Twist<S>], V: Twist<S>, v: &mut [S]) {
+        JointLaw::velocity(self, H, V, v);
+    }
 }
 
 struct Twins;
@@ -181,6 +196,10 @@ pub struct Joint {
     reference: Vec<f64>,
     rotation_axis: Option<Vec3<f64>>,
     subspace_is_constant: bool,
+    /// Which component of a twist each velocity is, where each is one.
+    components: Option<Box<[Component]>>,
+    /// Whether H is square and the law solves for what it multiplies.
+    leaves_all: bool,
     text: String,
 }
 
@@ -196,8 +215,18 @@ impl Joint {
         let (coordinates, velocities, reference) = (law.coordinates(), law.velocities(), law.reference());
         let (rotation_axis, text) = (law.rotation_axis(), format!("{law:?}"));
         let subspace_is_constant = law.subspace_is_constant() || velocities.is_empty();
+        let mut H = vec![Twist::zero(); velocities.len()];
+        law.subspace(&reference, &mut H);
+        let components = H.iter().map(Component::of).collect::<Option<_>>().filter(|_| subspace_is_constant);
+        let leaves_all = law.wrench(&H, &vec![0.0; velocities.len()]).is_some();
         let twins = PerScalar::new(&Maker(Arc::new(law)));
-        Self { twins, coordinates, velocities, reference, rotation_axis, subspace_is_constant, text }
+        Self { twins, coordinates, velocities, reference, rotation_axis, subspace_is_constant, components, leaves_all, text }
+    }
+
+    /// The columns of `H`, given where they stand.
+    #[inline(always)]
+    pub fn columns<'a, S: SystemScalar>(&'a self, H: &'a [Twist<S>]) -> Columns<'a, S> {
+        Columns::new(H, self.components.as_deref())
     }
 
     /// Unit axis, fixed in F and in M, about which the joint turns, where it only turns about one.
@@ -263,18 +292,53 @@ impl Joint {
     /// `H v`.
     #[inline]
     pub fn motion<S: SystemScalar>(&self, H: &[Twist<S>], v: &[S]) -> Twist<S> {
-        S::pick(&self.twins).motion(H, v)
+        let Some(components) = &self.components else { return S::pick(&self.twins).motion(H, v) };
+        let mut V = Twist::zero();
+        components.iter().zip(v).for_each(|(&c, &x)| V.add_along(c, x));
+        V
     }
 
     /// `H v` and `Ḣ v`.
     #[inline]
     pub fn motion_and_bias<S: SystemScalar>(&self, q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>) {
-        S::pick(&self.twins).motion_and_bias(q, H, v)
+        if self.components.is_some() { (self.motion(H, v), Twist::zero()) } else { S::pick(&self.twins).motion_and_bias(q, H, v) }
+    }
+
+    /// Twist of the outboard frame on a body with the twist `V` there, and what accelerates it besides `H v̇`: `Ḣ v + V × H v`.
+    #[inline]
+    pub fn carried<S: SystemScalar>(&self, mut V: Twist<S>, q: &[S], H: &[Twist<S>], v: &[S]) -> (Twist<S>, Twist<S>) {
+        if let Some(&[c]) = self.components.as_deref() {
+            V.add_along(c, v[0]);
+            return (V, V.cross_along(c, v[0]));
+        }
+        let (V_J, c_J) = self.motion_and_bias(q, H, v);
+        (V + V_J, c_J + V.cross(V_J))
     }
 
     /// `Hᵀ F`.
     #[inline]
     pub fn effort<S: SystemScalar>(&self, H: &[Twist<S>], F: Wrench<S>, tau: &mut [S]) {
-        S::pick(&self.twins).effort(H, F, tau);
+        match &self.components {
+            Some(components) => components.iter().zip(tau).for_each(|(&c, x)| *x = F.along(c)),
+            None => S::pick(&self.twins).effort(H, F, tau),
+        }
+    }
+
+    /// Whether the joint leaves all six motions and can be solved for them.
+    #[inline]
+    pub fn leaves_all(&self) -> bool {
+        self.leaves_all
+    }
+
+    /// The F with `Hᵀ F = τ`, of joints that leave all six motions.
+    #[inline]
+    pub fn wrench<S: SystemScalar>(&self, H: &[Twist<S>], tau: &[S]) -> Option<Wrench<S>> {
+        if self.leaves_all { S::pick(&self.twins).wrench(H, tau) } else { None }
+    }
+
+    /// The v with `H v = V`, of joints that leave all six motions.
+    #[inline]
+    pub fn velocity<S: SystemScalar>(&self, H: &[Twist<S>], V: Twist<S>, v: &mut [S]) {
+        S::pick(&self.twins).velocity(H, V, v);
     }
 }

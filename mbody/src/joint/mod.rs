@@ -4,6 +4,7 @@
 //! subspace `H` and the bias `Ḣ v` by hand; what is left out follows from the pose by jets. The conformity tests hold every
 //! hand-written `H` and bias to the jet of the pose.
 
+mod columns;
 mod fixed;
 mod free;
 mod law;
@@ -15,6 +16,7 @@ mod spherical;
 mod universal;
 mod vehicle_base;
 
+pub use columns::Columns;
 pub use fixed::Fixed;
 pub use free::Free;
 pub use law::{Coordinate, Joint, JointLaw, from_jet};

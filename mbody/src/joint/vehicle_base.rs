@@ -115,4 +115,18 @@ impl JointLaw for VehicleBase {
         (tau[0], tau[1], tau[2]) = (x.dot(F.f), y.dot(F.f), z.dot(F.n));
         (tau[3], tau[4], tau[5]) = (z.dot(F.f), x.dot(F.n), F.n.y);
     }
+    #[inline(always)]
+    fn wrench<S: Real>(&self, H: &[Twist<S>], tau: &[S]) -> Option<Wrench<S>> {
+        let (x, y, z) = (H[0].v, H[1].v, H[2].w);
+        // n = τ_φ x + a y + τ_r z with the component τ_θ along y of the body, on which x stands
+        let a = (tau[5] - tau[2] * z.y) / y.y;
+        let n = x.scaled(tau[4]) + y.scaled(a) + z.scaled(tau[2]);
+        Some(Wrench::new(n, x.scaled(tau[0]) + y.scaled(tau[1]) + z.scaled(tau[3])))
+    }
+    #[inline(always)]
+    fn velocity<S: Real>(&self, H: &[Twist<S>], V: Twist<S>, v: &mut [S]) {
+        let (x, y, z) = (H[0].v, H[1].v, H[2].w);
+        let pitch_rate = y.dot(V.w) / y.y;
+        v.copy_from_slice(&[x.dot(V.v), y.dot(V.v), z.dot(V.w) - pitch_rate * z.y, z.dot(V.v), x.dot(V.w), pitch_rate]);
+    }
 }

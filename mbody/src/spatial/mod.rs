@@ -4,6 +4,7 @@
 //! twists and spatial accelerations are (angular, linear), wrenches (moment, force).
 //! Source: R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, chapter 2.
 
+mod component;
 mod inertia;
 mod pose;
 mod rotation;
@@ -11,6 +12,7 @@ mod twist;
 mod vector;
 mod wrench;
 
+pub use component::Component;
 pub use inertia::{ArticulatedInertia, Inertia, MassProperties};
 pub use pose::Pose;
 pub use rotation::Rotation;
