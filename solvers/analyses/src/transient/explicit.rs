@@ -45,8 +45,7 @@ impl<'a, 'p> Whole<'a, 'p> {
 
     /// Completes the states by multipliers and rates: all of y and ẏ.
     pub(super) fn complete(&mut self, time: f64, states: &[f64]) -> Result<(&[f64], &[f64]), EvalError> {
-        let same = self.completed == Some(time) && self.states.iter().zip(states).all(|(&i, x)| self.y[i] == *x);
-        if same {
+        if self.is_completed(time, states) {
             return Ok((&self.y, &self.yd));
         }
         self.scatter(time, states);
@@ -63,6 +62,11 @@ impl<'a, 'p> Whole<'a, 'p> {
     /// The next point is completed anew, even if it is the last one.
     pub(super) fn forget(&mut self) {
         self.completed = None;
+    }
+
+    /// Whether y and ẏ are those of a point.
+    fn is_completed(&self, time: f64, states: &[f64]) -> bool {
+        self.completed == Some(time) && self.states.iter().zip(states).all(|(&i, x)| self.y[i] == *x)
     }
 
     fn scatter(&mut self, time: f64, states: &[f64]) {
@@ -202,11 +206,14 @@ impl OdeProblem for ExplicitForm<'_, '_> {
     }
     fn project(&mut self, time: f64, y: &mut [f64]) -> Result<(), EvalError> {
         let whole = &mut self.whole;
+        // a point that stays where it is keeps its rates
+        let completed = whole.is_completed(time, y).then_some(time);
         whole.scatter(time, y);
         let projected = whole.plant.borrow_mut().project(time, &mut whole.y, &whole.u, &[]);
         self.off.clear();
         match projected {
             Ok(()) => {
+                whole.completed = completed.filter(|_| y.iter().zip(&whole.states).all(|(state, &i)| *state == whole.y[i]));
                 for (state, &i) in y.iter_mut().zip(&whole.states) {
                     *state = whole.y[i];
                 }
