@@ -100,7 +100,7 @@ impl Motion<'_> {
             let contender = Contender { backend: row, formulation: None, derivatives: Derivatives::Exact };
             let found = self.run(&contender, Care::Tolerance(tolerance))?;
             let reached = found.outcome.because.is_none();
-            let better = reference.as_ref().is_none_or(|(kept, _)| found.time.len() > kept.time.len());
+            let better = reference.as_ref().is_none_or(|(kept, _)| found.recording.len() > kept.recording.len());
             if reached || better {
                 reference = Some((found, format!("{backend} at {tolerance:e}")));
             }
@@ -151,46 +151,45 @@ impl Motion<'_> {
             residuals: s.residuals,
             jacobians: s.jacobians,
             solves: s.iterations,
-            error: self.difference(&last, reference),
-            energy_drift: energy_drift(&last),
+            error: self.difference(&last, reference)?,
+            energy_drift: energy_drift(&last)?,
             constraint_drift: last.outcome.drift.position.as_ref().map_or(f64::NAN, |w| w.off.by),
         })
     }
 
     /// Largest difference of coordinates and velocities at common samples, in units of `nominal + |value|`.
-    fn difference(&self, found: &History, reference: &History) -> f64 {
-        let common = found.time.iter().zip(&reference.time).take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs()).count();
+    fn difference(&self, found: &History, reference: &History) -> Result<f64, Failure> {
+        let times = found.recording.time().iter().zip(reference.recording.time());
+        let common = times.take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs()).count();
         if common < 2 {
-            return f64::NAN;
+            return Ok(f64::NAN);
         }
         let mut worst = 0.0_f64;
         for unknown in self.system.unknowns() {
-            let column = |h: &History| h.signals.iter().position(|s| s.name == unknown.signal.name);
-            if let (Some(a), Some(b)) = (column(found), column(reference)) {
-                let off = (0..common).map(|k| {
-                    let (x, y) = (found.columns[a][k], reference.columns[b][k]);
-                    (x - y).abs() / (unknown.nominal + y.abs())
-                });
+            let column = |h: &History| h.column(&unknown.signal.name);
+            if let (Some(a), Some(b)) = (column(found)?, column(reference)?) {
+                let off = a.iter().zip(&b).take(common).map(|(x, y)| (x - y).abs() / (unknown.nominal + y.abs()));
                 worst = off.fold(worst, f64::max);
             }
         }
-        worst
+        Ok(worst)
     }
 }
 
 /// Largest change of the energy, as a share of its largest size, where no power goes in or out.
-fn energy_drift(history: &History) -> f64 {
-    let column = |name: &str| history.signals.iter().position(|s| s.name == name).map(|k| &history.columns[k]);
-    let (Some(energy), Some(supplied), Some(dissipated)) = (column(motion::ENERGY), column(motion::SUPPLIED), column(motion::DISSIPATED))
+fn energy_drift(history: &History) -> Result<f64, Failure> {
+    let column = |name: &str| history.column(name);
+    let (Some(energy), Some(supplied), Some(dissipated)) =
+        (column(motion::ENERGY)?, column(motion::SUPPLIED)?, column(motion::DISSIPATED)?)
     else {
-        return f64::NAN;
+        return Ok(f64::NAN);
     };
     let size = energy.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
     let idle = supplied.iter().chain(dissipated.iter()).all(|p| p.abs() <= 1e-9 * size.max(1e-9));
-    match idle && size > 0.0 {
+    Ok(match idle && size > 0.0 {
         true => energy.iter().map(|e| (e - energy[0]).abs()).fold(0.0, f64::max) / size,
         false => f64::NAN,
-    }
+    })
 }
 
 /// A sweep of steady states by every solver.

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::output::Palette;
-use std::io::{ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::sync::{Mutex, PoisonError};
 
 /// What a command wrote and how it ended.
@@ -54,11 +54,27 @@ impl Console {
     /// # Errors
     /// The stream does not take the text.
     pub fn print(&self, text: &[u8]) -> Result<(), Failure> {
-        if let Some(memory) = &self.memory {
-            memory.lock().unwrap_or_else(PoisonError::into_inner).stdout.push_str(&String::from_utf8_lossy(text));
-            return Ok(());
-        }
-        match std::io::stdout().lock().write_all(text) {
+        self.stream(|out| out.write_all(text))
+    }
+
+    /// Writes to standard output piece by piece; a reader that has gone is no failure.
+    ///
+    /// # Errors
+    /// The stream does not take the text, or `write` fails.
+    pub fn stream(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+        let streamed = match &self.memory {
+            Some(memory) => {
+                let mut text = Vec::new();
+                let written = write(&mut text);
+                memory.lock().unwrap_or_else(PoisonError::into_inner).stdout.push_str(&String::from_utf8_lossy(&text));
+                written
+            }
+            None => {
+                let mut out = BufWriter::new(io::stdout().lock());
+                write(&mut out).and_then(|()| out.flush())
+            }
+        };
+        match streamed {
             Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Write { path: "standard output".to_owned(), cause: e.to_string() }),
             _ => Ok(()),
         }
@@ -68,7 +84,7 @@ impl Console {
     pub fn complain(&self, text: &str) {
         match &self.memory {
             Some(memory) => memory.lock().unwrap_or_else(PoisonError::into_inner).stderr.push_str(text),
-            None => drop(std::io::stderr().lock().write_all(text.as_bytes())),
+            None => drop(io::stderr().lock().write_all(text.as_bytes())),
         }
     }
 

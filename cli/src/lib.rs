@@ -87,6 +87,14 @@ pub enum Failure {
         /// What the system said.
         cause: String,
     },
+    /// What was recorded could not be kept or read again.
+    #[error(
+        "the temporary file of a long recording fails: {cause}; `--record` and a lower `--rate` make it smaller, `TMPDIR` names another place for it"
+    )]
+    Recording {
+        /// What the system said.
+        cause: String,
+    },
     /// A figure could not be drawn.
     #[error(transparent)]
     Plot(#[from] plot::PlotError),

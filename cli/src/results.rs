@@ -12,6 +12,7 @@ use mbody::dynamics::{System, TreePlant};
 use problem::Signal;
 use serde_json::json;
 use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -61,7 +62,7 @@ pub fn deliver<R: Results>(
 ) -> Result<Exit, Failure> {
     let report = report.in_axes(output.axes);
     let options = Options { palette: context.palette, angles: output.angles() };
-    context.console.print(&written(output.format, &report, &options, "standard output")?)?;
+    context.console.stream(|out| R::writer(output.format)(&report, &options, out))?;
     // what was computed is told before anything else can fail
     context.console.warn(report.warnings());
     let figure = output.plot.is_some().then(|| figure(&report)).transpose()?;
@@ -72,11 +73,14 @@ pub fn deliver<R: Results>(
     }
 }
 
-/// The results in one format; `path` is where they go, for the message.
-fn written<R: Results>(kind: &output::Kind, report: &R, options: &Options, path: &str) -> Result<Vec<u8>, Failure> {
-    let mut text = Vec::new();
-    R::writer(kind)(report, options, &mut text).map_err(|e| Failure::Write { path: path.to_owned(), cause: e.to_string() })?;
-    Ok(text)
+/// Writes a file piece by piece, or says which one could not be written.
+fn stream(path: &Path, write: impl FnOnce(&mut (dyn io::Write + Send)) -> io::Result<()>) -> Result<(), Failure> {
+    let streamed = fs::File::create(path).and_then(|file| {
+        let mut out = io::BufWriter::new(file);
+        write(&mut out)?;
+        out.flush()
+    });
+    streamed.map_err(|e| Failure::Write { path: path.display().to_string(), cause: e.to_string() })
 }
 
 /// Writes figure and run folder.
@@ -93,15 +97,11 @@ fn keep<R: Results>(
     fs::create_dir_all(folder).map_err(|e| Failure::Write { path: folder.display().to_string(), cause: e.to_string() })?;
     for kind in output::KINDS.iter().filter(|k| k.name != "table") {
         let path = folder.join(format!("results.{}", kind.name));
-        let text = written(kind, report, &Options::default(), &path.display().to_string())?;
-        write(&path, &text)?;
+        stream(&path, |out| R::writer(kind)(report, &Options::default(), out))?;
     }
     #[cfg(feature = "parquet")]
     if let Some(history) = report.recording() {
-        let path = folder.join("results.parquet");
-        let unwritten = |e: std::io::Error| Failure::Write { path: path.display().to_string(), cause: e.to_string() };
-        let mut file = fs::File::create(&path).map_err(unwritten)?;
-        output::parquet::write(history, &mut file).map_err(unwritten)?;
+        stream(&folder.join("results.parquet"), |out| output::parquet::write(history, out))?;
     }
     if let Some(figure) = figure {
         for (name, format) in [("figure.svg", FileFormat::Svg), ("figure.png", FileFormat::Png)] {

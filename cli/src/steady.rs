@@ -10,6 +10,7 @@ use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};
 use problem::{AlgebraicMethod, Ending, Plant, Signal};
 use rayon::prelude::*;
+use std::convert::Infallible;
 use std::sync::Arc;
 
 /// A grid of steady states.
@@ -83,7 +84,9 @@ pub fn run(request: &Request, system: &Arc<System>, backend_name: &str, what: &s
         );
     }
     let signals = signals(&plant);
-    warnings.extend(trust::left(system, &signals, |k| points.iter().map(move |p| p.values.get(k).copied().unwrap_or(f64::NAN))));
+    let values = |k: usize| Ok::<_, Infallible>(points.iter().map(move |p| p.values.get(k).copied().unwrap_or(f64::NAN)));
+    let Ok(left) = trust::left(system, &signals, values);
+    warnings.extend(left);
     Ok(Steady { given, signals, points, limits, warnings })
 }
 

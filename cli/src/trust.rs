@@ -5,14 +5,21 @@ use mbody::dynamics::System;
 use problem::Signal;
 
 /// One line per range that was left; `column` gives the values of a signal, points that were not computed left out.
-pub fn left<'a, V: Iterator<Item = f64>>(system: &System, signals: &[Signal], column: impl Fn(usize) -> V + 'a) -> Vec<String> {
+///
+/// # Errors
+/// Those of `column`.
+pub fn left<V: IntoIterator<Item = f64>, E>(
+    system: &System,
+    signals: &[Signal],
+    column: impl Fn(usize) -> Result<V, E>,
+) -> Result<Vec<String>, E> {
     let mut told = Vec::new();
     for range in system.ranges() {
         let Some(at) = signals.iter().position(|s| s.name == range.signal) else { continue };
         let [low, high] = range.bounds;
         let beyond = |value: f64| (low - value).max(value - high);
         let (mut all, mut outside, mut farthest) = (0, 0, None::<f64>);
-        for value in column(at).filter(|v| v.is_finite()) {
+        for value in column(at)?.into_iter().filter(|v| v.is_finite()) {
             all += 1;
             if beyond(value) > 0.0 {
                 outside += 1;
@@ -33,7 +40,7 @@ pub fn left<'a, V: Iterator<Item = f64>>(system: &System, signals: &[Signal], co
             number(farthest)
         ));
     }
-    told
+    Ok(told)
 }
 
 /// A number with at most four digits behind the point.

@@ -362,3 +362,28 @@ fn rides_have_figures() {
         assert!(fs::read_to_string(&path).expect("the figure").contains(word), "{picture}");
     }
 }
+
+/// Ten minutes at 1 kHz with all signals and all files take no more memory than a fraction of the recording, which is a gigabyte.
+#[test]
+#[ignore = "minutes, and four gigabytes on the disk; see CONTRIBUTING"]
+fn a_long_recording_stays_out_of_memory() {
+    let folder = folder("long");
+    let maneuver = folder.join("ten_minutes.yaml");
+    std::fs::write(
+        &maneuver,
+        "maneuver: 1\nname: Ten minutes\nspeed: 30\npath:\n  - straight: { length: 18 km }\nroad: { iso_8608: { class: B, seed: 1 } }\n",
+    )
+    .expect("a file");
+    let (maneuver, out) = (maneuver.display().to_string(), folder.join("out").display().to_string());
+    let answer = fastbike(&["run", "gsxr1000", &maneuver, "--duration", "600s", "--rate", "1kHz", "--out", &out]);
+    assert_eq!(answer.status, 0, "{}{}", answer.stdout, answer.stderr);
+    let lines = std::io::BufReader::new(std::fs::File::open(folder.join("out/results.csv")).expect("the table"));
+    assert_eq!(std::io::BufRead::lines(lines).count(), 600_002);
+    // Linux tells the most memory that this process has had
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    if let Some(most) = status.lines().find_map(|l| l.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB")?.parse::<f64>().ok()) {
+        println!("at most {:.0} MB in memory", most / 1000.0);
+        assert!(most < 400e3, "{most} kB");
+    }
+    std::fs::remove_dir_all(folder).expect("a folder of our own");
+}

@@ -77,9 +77,14 @@ impl Rode {
     ///
     /// # Panics
     /// There is no such signal.
-    pub fn signal(&self, name: &str) -> &[f64] {
-        let at = self.history.signals.iter().position(|s| s.name == name);
-        &self.history.columns[at.unwrap_or_else(|| panic!("no signal `{name}`"))]
+    pub fn signal(&self, name: &str) -> Vec<f64> {
+        let column = self.history.column(name).unwrap_or_else(|failure| panic!("{failure}"));
+        column.unwrap_or_else(|| panic!("no signal `{name}`"))
+    }
+
+    /// Times of the samples, s.
+    pub fn time(&self) -> &[f64] {
+        self.history.recording.time()
     }
 
     /// Largest absolute value of a signal.

@@ -169,8 +169,8 @@ fn a_speed_out_of_reach_does_not_wind_the_rider_up() {
     let rode = Rode::of(&Vehicle::bundled("gsxr1000"), read("top_speed", &changes), Care::USUAL, &["chassis.forward_speed"]);
     let mut agreement = Agreement::on("a speed out of reach");
     let held = absolute(0.3).because("six seconds of a loop of 0.7 rad/s");
-    for (time, speed) in rode.history.time.iter().zip(rode.signal("chassis.forward_speed")).filter(|(time, _)| **time > 42.0) {
-        agreement.near(&format!("speed at {time} s"), *speed, 70.0, &held);
+    for (time, speed) in rode.time().iter().zip(rode.signal("chassis.forward_speed")).filter(|(time, _)| **time > 42.0) {
+        agreement.near(&format!("speed at {time} s"), speed, 70.0, &held);
     }
     let lowest = rode.signal("chassis.forward_speed").iter().skip(3600).copied().fold(f64::INFINITY, f64::min);
     agreement.holds(&format!("lowest speed {lowest} m/s"), lowest > 69.0);
@@ -181,7 +181,7 @@ fn a_speed_out_of_reach_does_not_wind_the_rider_up() {
 fn first(rode: &Rode, name: &str) -> (f64, f64) {
     let peak = rode.peak(name);
     let at = rode.signal(name).iter().position(|v| v.abs() > 0.005 * peak).expect("a peak");
-    (rode.signal(name)[at].signum(), rode.history.time[at])
+    (rode.signal(name)[at].signum(), rode.time()[at])
 }
 
 #[test]
@@ -266,20 +266,19 @@ fn random_rides_end_with_a_name() {
             Err(failure) => format!("refused: {}", failure.to_string().lines().next().unwrap_or_default()),
             Ok(rode) => {
                 let history = &rode.history;
-                let (samples, last) = (history.time.len(), history.time.last().copied().unwrap_or(f64::NAN));
-                assert!(samples > 0 && history.columns.iter().all(|c| c.len() == samples), "{k}: columns of different lengths\n{text}");
+                let last = rode.time().last().copied().unwrap_or(f64::NAN);
                 assert!(
                     (last - history.outcome.statistics.time).abs() < 0.011,
                     "{k}: told until {last} s, ridden until {:?}\n{text}",
                     history.outcome
                 );
-                for (signal, column) in history.signals.iter().zip(&history.columns) {
-                    let lost = column.iter().position(|v| !v.is_finite());
+                for signal in &history.signals {
+                    let lost = rode.signal(&signal.name).iter().position(|v| !v.is_finite());
                     assert!(
                         lost.is_none(),
                         "{k}: `{}` is not finite at {:?} s of {last} s, {:?}\n{text}",
                         signal.name,
-                        lost.map(|i| history.time[i]),
+                        lost.map(|i| rode.time()[i]),
                         history.outcome
                     );
                 }

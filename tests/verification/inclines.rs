@@ -158,8 +158,8 @@ fn inclined_states_stay() {
             };
             let history = motion::run(&request, &vehicle.system, model, None).unwrap_or_else(|failure| panic!("{failure}"));
             let column = |name: &str| {
-                let at = history.signals.iter().position(|s| s.name == name).unwrap_or_else(|| panic!("no signal `{name}`"));
-                history.columns[at].clone()
+                let column = history.column(name).unwrap_or_else(|failure| panic!("{failure}"));
+                column.unwrap_or_else(|| panic!("no signal `{name}`"))
             };
             agreement.holds(&format!("{model}, {name}: {}", history.outcome.ending), history.outcome.ending == "reached");
             let close = |nominal: f64| absolute(1e-5 * nominal).because("tolerance of the integration, residual of the trim");
@@ -193,7 +193,7 @@ fn rides_on_inclines_account_for_their_energy() {
         let care = Care { tolerance: 1e-8, rate: 200.0, ..Care::USUAL };
         let rode = Rode::of(&vehicle, read(name, &[]), care, &record);
         let [energy, supplied, dissipated] = record.map(|name| rode.signal(name));
-        let time = &rode.history.time;
+        let time = rode.time();
         let intervals = (time.len() - 2) / 2 * 2;
         let integral = |power: &dyn Fn(usize) -> f64| {
             let pairs = (0..intervals).step_by(2).map(|k| power(k) + 4.0 * power(k + 1) + power(k + 2));

@@ -341,10 +341,10 @@ fn energy_is_accounted_for() {
         maneuver.duration = Some(5.0);
         let rode = Rode::of(&Vehicle::bundled(model), maneuver, care, &record);
         // a last sample may lie at the end of the path, between two periods
-        let whole = (rode.history.time.windows(2)).take_while(|w| (w[1] - w[0] - 1e-3).abs() < 1e-9).count();
-        let [energy, supplied, dissipated] = record.map(|name| &rode.signal(name)[..=whole]);
-        let net: Vec<f64> = supplied.iter().zip(dissipated).map(|(s, d)| s - d).collect();
-        let turned: Vec<f64> = supplied.iter().zip(dissipated).map(|(s, d)| s.abs() + d.abs()).collect();
+        let whole = (rode.time().windows(2)).take_while(|w| (w[1] - w[0] - 1e-3).abs() < 1e-9).count();
+        let [energy, supplied, dissipated] = record.map(|name| rode.signal(name)[..=whole].to_vec());
+        let net: Vec<f64> = supplied.iter().zip(&dissipated).map(|(s, d)| s - d).collect();
+        let turned: Vec<f64> = supplied.iter().zip(&dissipated).map(|(s, d)| s.abs() + d.abs()).collect();
         let (gained, balance, turned) = (energy[whole] - energy[0], integral(&net, 1e-3), integral(&turned, 1e-3));
         let quadrature = absolute(1e-6 * turned).because("quadrature at 1 kHz");
         agreement.near(&format!("{model}, {name}: energy gained, J, of {turned:.0} J turned over"), gained, balance, &quadrature);

@@ -134,14 +134,17 @@ fn ridden(system: &Arc<System>, speed: f64, lateral: f64, width: f64) -> [Result
             format!("maneuver: 1\nname: Handling\nspeed: {speed}\npath:\n  - straight: {{ length: {run_up} }}\n  - {section}{end}\n");
         ride(system, &text).map_err(|failure| failure.to_string())
     };
-    let signal = |history: &History, name: &str| -> Vec<f64> {
-        let at = history.signals.iter().position(|s| s.name == name);
-        at.map_or_else(Vec::new, |k| history.columns[k].clone())
+    let signals = |section: &str, beyond: f64| -> Result<[Vec<f64>; 3], String> {
+        let history = ride(section, beyond)?;
+        let mut columns = [const { Vec::new() }; 3];
+        for (column, name) in columns.iter_mut().zip(RECORDED) {
+            *column = history.column(name).map_err(|failure| failure.to_string())?.unwrap_or_default();
+        }
+        Ok(columns)
     };
-    let [torque, rate, forward] = RECORDED;
     [
-        ride(&curve, 0.0).map(|h| koch(&signal(&h, torque), &signal(&h, rate), speed)),
-        ride(&change, 2.0 * speed).map(|h| lane_change_roll(&signal(&h, torque), &signal(&h, rate), &signal(&h, forward))),
+        signals(&curve, 0.0).map(|[torque, rate, _]| koch(&torque, &rate, speed)),
+        signals(&change, 2.0 * speed).map(|[torque, rate, forward]| lane_change_roll(&torque, &rate, &forward)),
     ]
 }
 

@@ -5,7 +5,7 @@ use crate::animation::{self, Scene};
 use crate::arguments::{Jacobian, ModelArguments, OutputArguments, argument};
 use crate::figures::ride::{self, Picture};
 use crate::incline::Incline;
-use crate::output::{Angles, History, Results};
+use crate::output::{Angles, History, Results, unreadable};
 use crate::plan::SteadyArguments;
 use crate::plot::{Axis, Curve, Figure, LinePanel, Lines, Markers};
 use crate::{Context, Exit, Failure, interrupt, maneuver, model, motion, results};
@@ -157,6 +157,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         let told = history.clone().in_axes(arguments.output.axes);
         animation::page_of_run(&scene, &history, &told, arguments.output.angles())
     });
+    let page = page.transpose()?;
     let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| match picture {
         Some(picture) => ride::figure(history, picture),
         None => figure(history, &drawn),
@@ -213,14 +214,15 @@ fn figure(history: &History, drawn: &[usize]) -> Result<Figure, Failure> {
     let panels = drawn.iter().map(|&s| {
         let signal = &history.signals[s];
         let shown = Angles::Degrees.show(&signal.unit);
-        let points = history.time.iter().zip(&history.columns[s]).map(|(&t, &v)| (t, v * shown.factor)).collect();
+        let values = history.recording.column(s).map_err(unreadable)?;
+        let points = history.recording.time().iter().zip(values).map(|(&t, v)| (t, v * shown.factor)).collect();
         let curve = Curve { name: signal.name.clone(), points, markers: Markers::Never, variant: 0 };
-        LinePanel { y: Axis::new(signal.name.clone(), shown.unit), curves: vec![curve] }
+        Ok(LinePanel { y: Axis::new(signal.name.clone(), shown.unit), curves: vec![curve] })
     });
     Ok(Figure::Lines(Lines {
         title: format!("Motion of {}", history.model),
         x: Axis::new("time", "s"),
-        panels: panels.collect(),
+        panels: panels.collect::<Result<_, Failure>>()?,
         bands: Vec::new(),
         variants: Vec::new(),
     }))

@@ -1,8 +1,10 @@
 //! Energies, powers and errors of constraints along a motion, in all forms alike.
 
-use analyses::transient::{Drift, Simulation, Worst};
+use crate::output::Recording;
+use analyses::transient::{Drift, Worst};
 use mbody::dynamics::{Formulation, System, TreePlant};
 use problem::{At, Dae, EquationKind, Off, Outputs, Signal};
+use std::io;
 use std::sync::Arc;
 
 /// The total energy, beside the signals of the plant.
@@ -29,19 +31,20 @@ pub struct Accounts {
     pub drift: Drift,
 }
 
-/// Goes through a simulation that recorded unknowns of the system first, then their rates, then all inputs.
-pub fn account(simulation: &Simulation, system: &Arc<System>) -> Accounts {
+/// Goes through a recording of the unknowns of the system, then their rates, then all inputs.
+///
+/// # Errors
+/// The recording cannot be read.
+pub fn account(recording: &Recording, system: &Arc<System>) -> io::Result<Accounts> {
     let mut plant = TreePlant::in_formulation(system.clone(), Formulation::Ggl);
     let (size, n, nu) = (plant.unknowns().len(), system.unknowns().len(), system.inputs().len());
     let (mut y, mut yd, mut u) = (vec![0.0; size], vec![0.0; size], vec![0.0; nu]);
     let (mut residual, mut outputs) = (vec![0.0; size], vec![0.0; plant.outputs().len()]);
     let mut accounts = Accounts { columns: Default::default(), drift: Drift::default() };
-    let columns = &simulation.trajectory.columns;
-    for (k, &time) in simulation.trajectory.time.iter().enumerate() {
-        let load = |to: &mut [f64], from: &[Vec<f64>]| to.iter_mut().zip(from).for_each(|(x, column)| *x = column[k]);
-        load(&mut y[..n], &columns[..n]);
-        load(&mut yd[..n], &columns[n..2 * n]);
-        load(&mut u, &columns[2 * n..2 * n + nu]);
+    recording.rows(|time, row| {
+        y[..n].copy_from_slice(&row[..n]);
+        yd[..n].copy_from_slice(&row[n..2 * n]);
+        u.copy_from_slice(&row[2 * n..2 * n + nu]);
         let at = At { time, y: &y, yd: &yd, u: &u };
         let account = plant.account_at(at);
         let energy = account.kinetic + account.gravity + account.elements.stored;
@@ -60,6 +63,7 @@ pub fn account(simulation: &Simulation, system: &Arc<System>) -> Accounts {
                 *worst = Some(Worst { off, time });
             }
         }
-    }
-    accounts
+        Ok(())
+    })?;
+    Ok(accounts)
 }

@@ -11,17 +11,16 @@ use crate::arguments::{argument, unknown_name};
 use crate::backend::{self, Integrator};
 use crate::interrupt::Interrupt;
 use crate::maneuver::Ride;
-use crate::output::{History, Outcome, Progress, small};
+use crate::output::{History, Kept, Outcome, Progress, Tape, small, unreadable};
 use crate::plan;
 use crate::trust;
 pub use account::{DISSIPATED, ENERGY, SUPPLIED};
-use analyses::transient::{Cause, Method, Simulation, Start, Trajectory, Transient, TransientEnding, TransientError};
+use analyses::transient::{Cause, Method, Sample, Simulation, Start, Transient, TransientEnding, TransientError};
 use analyses::{ClosedLoop, Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
 use problem::{Dae, Derivatives, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
-use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -140,16 +139,30 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     transient.ends = condition::conditions(&request.until, &plant)?;
     transient.ends.extend(ends);
     transient.breaks = plant.breaks();
-    let (n, nu) = (system.unknowns().len(), system.inputs().len());
+    let n = system.unknowns().len();
     // what is commanded is an output of the whole
     let names = Variables::of(&plant);
     let commanded = system.inputs().iter().map(|i| names.find(&i.signal.name).unwrap_or(Variable::Input(0)));
     let rates = (0..n).map(Variable::Rate).chain(commanded);
+    let moving: Vec<Variable> = (0..n).map(Variable::Unknown).chain(rates).collect();
     let beside = beside(request.keep.as_deref(), &plant);
-    transient.record = (0..n).map(Variable::Unknown).chain(rates).chain(recorded.variables.iter().chain(&beside).copied()).collect();
+    // the tape keeps what is recorded, each variable once
+    transient.record.clear();
+    let mut taped: Vec<Variable> = Vec::new();
+    let mut places = |wanted: &[Variable]| -> Vec<usize> {
+        let place = |v: &Variable| {
+            taped.iter().position(|t| t == v).unwrap_or_else(|| {
+                taped.push(*v);
+                taped.len() - 1
+            })
+        };
+        wanted.iter().map(place).collect()
+    };
+    let [of_motion, told_columns, kept_columns] = [&moving, &recorded.variables, &beside].map(|wanted| places(wanted));
     let began = Instant::now();
-    let mut simulation = follow(&mut transient, &mut plant, &beginning, (&backend.make, request.interrupt), &mut warnings)?;
+    let (simulation, tape) = follow(&mut transient, &mut plant, &beginning, &taped, (&backend.make, request.interrupt), &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
+    let all = tape.finish();
     if let Some(near) = simulation.near_singular {
         warnings.push(format!(
             "at {:.4} s the mechanism is near a singular position (constraints are {:.1e} as independent as at the start): what follows may be another branch of the \
@@ -157,17 +170,21 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
             near.time, near.independence
         ));
     }
-    let accounts = account::account(&simulation, system);
-    let told_columns = 2 * n + nu..2 * n + nu + recorded.variables.len();
-    let mut signals = simulation.trajectory.signals[told_columns.clone()].to_vec();
-    let kept = if request.keep.is_some() { kept(&simulation.trajectory, told_columns.clone()) } else { Trajectory::default() };
-    // long recordings are moved, not copied
-    let mut columns: Vec<Vec<f64>> = simulation.trajectory.columns.drain(told_columns).collect();
+    let mut accounts = account::account(&all.pick(of_motion.iter().copied()), system).map_err(unreadable)?;
+    let signal = |&v: &Variable| names.signal(v);
+    let kept = match request.keep {
+        Some(_) => Kept {
+            signals: moving.iter().chain(&beside).map(signal).collect(),
+            recording: all.pick(of_motion.into_iter().chain(kept_columns)),
+        },
+        None => Kept::default(),
+    };
+    let (mut signals, mut recording): (Vec<Signal>, _) = (recorded.variables.iter().map(signal).collect(), all.pick(told_columns));
     for &(at, which) in &recorded.accounts {
         signals.insert(at, account::signals()[which].clone());
-        columns.insert(at, accounts.columns[which].clone());
+        recording.insert(at, std::mem::take(&mut accounts.columns[which]));
     }
-    warnings.extend(trust::left(system, &signals, |k| columns[k].iter().copied()));
+    warnings.extend(trust::left(system, &signals, |k| recording.column(k)).map_err(unreadable)?);
     let (condition, because) = told(&simulation.ending, &transient.ends);
     let shown = if request.record.is_empty() { shown(&signals, &plant) } else { (0..signals.len()).collect() };
     Ok(History {
@@ -176,8 +193,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         given: beginning.told,
         signals,
         shown,
-        time: simulation.trajectory.time,
-        columns,
+        recording,
         outcome: Outcome {
             backend: backend.name,
             formulation: if explicit { "explicit" } else { formulation.name() },
@@ -201,14 +217,6 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
 fn beside(keep: Option<&[String]>, plant: &Ridden) -> Vec<Variable> {
     let names = Variables::of(plant);
     keep.unwrap_or_default().iter().filter_map(|name| names.find(name)).collect()
-}
-
-/// All of a trajectory but the signals that are told.
-fn kept(all: &Trajectory, told: Range<usize>) -> Trajectory {
-    fn others<T: Clone>(list: &[T], told: &Range<usize>) -> Vec<T> {
-        list[..told.start].iter().chain(&list[told.end..]).cloned().collect()
-    }
-    Trajectory { time: all.time.clone(), signals: others(&all.signals, &told), columns: others(&all.columns, &told) }
 }
 
 /// Most steps between two samples: what takes more has steps of some microseconds and will not end.
@@ -275,9 +283,10 @@ fn follow(
     transient: &mut Transient,
     plant: &mut Ridden,
     beginning: &Beginning,
+    taped: &[Variable],
     (make, interrupt): (&Integrator, Option<&Interrupt>),
     warnings: &mut Vec<String>,
-) -> Result<Simulation, Failure> {
+) -> Result<(Simulation, Tape), Failure> {
     let stated = beginning.start.clone();
     transient.start = stated.clone();
     for &(i, value) in &beginning.given {
@@ -285,14 +294,17 @@ fn follow(
     }
     let run = |transient: &Transient, plant: &mut Ridden| {
         let progress = Progress::new("run", transient.times.len());
-        let mut watcher = |_: f64| {
+        let (mut tape, mut full) = (Tape::new(taped.len()), None);
+        let mut watcher = |sample: &Sample<'_>| {
             progress.advance();
-            if interrupt.is_some_and(Interrupt::is_set) { Flow::Stop } else { Flow::Continue }
+            full = tape.push(sample.time, taped.iter().map(|&v| sample.value(v))).err();
+            if full.is_some() || interrupt.is_some_and(Interrupt::is_set) { Flow::Stop } else { Flow::Continue }
         };
-        match make {
+        let run = match make {
             Integrator::Implicit(make) => transient.run_watched(plant, &beginning.inputs, Method::Dae(make().as_mut()), &mut watcher),
             Integrator::Explicit(make) => transient.run_watched(plant, &beginning.inputs, Method::Ode(make().as_mut()), &mut watcher),
-        }
+        };
+        run.map(|simulation| (simulation, tape, full))
     };
     let mut tried = run(transient, plant);
     let open = |e: &TransientError| matches!(e, TransientError::Open { .. } | TransientError::Velocity { .. });
@@ -307,7 +319,11 @@ fn follow(
             warnings.push(format!("`start` of the description does not go with what is given; it was left for {names}"));
         }
     }
-    tried.map_err(|error| cannot_start(&error, plant, &transient.start, beginning).into())
+    match tried {
+        Ok((_, _, Some(full))) => Err(unreadable(full)),
+        Ok((simulation, tape, None)) => Ok((simulation, tape)),
+        Err(error) => Err(cannot_start(&error, plant, &transient.start, beginning).into()),
+    }
 }
 
 /// Why a motion cannot start, with rows in mm and degrees and with what is held.

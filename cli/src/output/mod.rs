@@ -34,7 +34,7 @@ mod units;
 mod versus;
 
 pub use axes::Axes;
-pub use history::{History, Outcome};
+pub use history::{History, Kept, Outcome, Recording, Tape, unreadable};
 pub use palette::Palette;
 pub use progress::Progress;
 pub use report::{Beside, Given, Point, Report, Variant};

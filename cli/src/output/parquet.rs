@@ -24,15 +24,15 @@ pub(crate) fn write(history: &History, out: &mut (dyn io::Write + Send)) -> io::
 }
 
 fn encode(history: &History, out: &mut (dyn io::Write + Send)) -> Result<(), ParquetError> {
-    let columns: Vec<(&str, &str, &[f64])> = std::iter::once(("time", "s", history.time.as_slice()))
-        .chain(history.signals.iter().zip(&history.columns).map(|(s, column)| (s.name.as_str(), s.unit.as_ref(), column.as_slice())))
-        .collect();
-    let field = |(name, _, _): &(&str, &str, &[f64])| {
+    let recording = &history.recording;
+    let named = std::iter::once(("time", "s"));
+    let columns: Vec<(&str, &str)> = named.chain(history.signals.iter().map(|s| (s.name.as_str(), s.unit.as_ref()))).collect();
+    let field = |(name, _): &(&str, &str)| {
         Type::primitive_type_builder(name, Physical::DOUBLE).with_repetition(Repetition::REQUIRED).build().map(Arc::new)
     };
     let fields = columns.iter().map(field).collect::<Result<Vec<_>, _>>()?;
     let schema = Arc::new(Type::group_type_builder("recording").with_fields(fields).build()?);
-    let units = columns.iter().map(|(name, unit, _)| KeyValue::new(format!("unit.{name}"), (*unit).to_owned()));
+    let units = columns.iter().map(|(name, unit)| KeyValue::new(format!("unit.{name}"), (*unit).to_owned()));
     let origin = [
         ("fastbike", env!("CARGO_PKG_VERSION").to_owned()),
         ("model", history.model.clone()),
@@ -47,12 +47,14 @@ fn encode(history: &History, out: &mut (dyn io::Write + Send)) -> Result<(), Par
         .set_key_value_metadata(Some(metadata))
         .build();
     let mut file = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
-    for first in (0..history.time.len()).step_by(GROUP) {
-        let rows = first..(first + GROUP).min(history.time.len());
+    for first in (0..recording.len()).step_by(GROUP) {
+        let rows = first..(first + GROUP).min(recording.len());
         let mut group = file.next_row_group()?;
-        for (_, _, values) in &columns {
+        let times = recording.time()[rows.clone()].to_vec();
+        let signals = (0..history.signals.len()).map(|k| recording.part(k, rows.clone()));
+        for values in std::iter::once(Ok(times)).chain(signals) {
             let Some(mut column) = group.next_column()? else { break };
-            column.typed::<DoubleType>().write_batch(&values[rows.clone()], None, None)?;
+            column.typed::<DoubleType>().write_batch(&values?, None, None)?;
             column.close()?;
         }
         group.close()?;

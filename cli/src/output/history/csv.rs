@@ -9,8 +9,6 @@ pub(in crate::output) fn write(history: &History, _: &Options, out: &mut dyn io:
     let mut table = ::csv::Writer::from_writer(out);
     let names = history.signals.iter().map(|s| format!("{} [{}]", s.name, s.unit));
     table.write_record(std::iter::once("time [s]".to_owned()).chain(names))?;
-    for (k, &time) in history.time.iter().enumerate() {
-        table.write_record(std::iter::once(cell(time)).chain(history.columns.iter().map(|c| cell(c[k]))))?;
-    }
+    history.recording.rows(|time, row| Ok(table.write_record(std::iter::once(cell(time)).chain(row.iter().map(|v| cell(*v))))?))?;
     table.flush()
 }

@@ -3,20 +3,45 @@
 use super::{History, Outcome};
 use crate::output::Options;
 use analyses::transient::{Crossing, Worst};
+use serde::ser::{Error, Serialize, SerializeMap, Serializer};
 use serde_json::{Map, Value, json};
 use std::io;
 
 pub(in crate::output) fn write(history: &History, _: &Options, out: &mut dyn io::Write) -> io::Result<()> {
-    serde_json::to_writer(&mut *out, &object(history))?;
+    let document = Document { head: head(history), time: history.recording.time(), signals: Columns(history) };
+    serde_json::to_writer(&mut *out, &document)?;
     writeln!(out)
 }
 
-fn object(history: &History) -> Value {
+/// The object, columns of signals last: those are read as they are written.
+#[derive(serde::Serialize)]
+struct Document<'a> {
+    #[serde(flatten)]
+    head: Value,
+    time: &'a [f64],
+    signals: Columns<'a>,
+}
+
+/// One array per signal.
+struct Columns<'a>(&'a History);
+
+impl Serialize for Columns<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(History { signals, recording, .. }) = self;
+        let mut map = serializer.serialize_map(Some(signals.len()))?;
+        for (k, signal) in signals.iter().enumerate() {
+            map.serialize_entry(&signal.name, &recording.column(k).map_err(S::Error::custom)?)?;
+        }
+        map.end()
+    }
+}
+
+/// Everything but the columns.
+fn head(history: &History) -> Value {
     let outcome = &history.outcome;
     let given: Map<String, Value> = history.given.iter().map(|(g, v)| (g.name.clone(), json!(v))).collect();
     let given_units: Map<String, Value> = history.given.iter().map(|(g, _)| (g.name.clone(), json!(g.unit))).collect();
     let units: Map<String, Value> = history.signals.iter().map(|s| (s.name.clone(), json!(s.unit))).collect();
-    let signals: Map<String, Value> = history.signals.iter().zip(&history.columns).map(|(s, c)| (s.name.clone(), json!(c))).collect();
     let limits = outcome.limits.iter();
     let mut object = json!({
         "fastbike": env!("CARGO_PKG_VERSION"),
@@ -46,8 +71,6 @@ fn object(history: &History) -> Value {
     object["events"] = events.map(event).collect();
     object["warnings"] = json!(history.warnings);
     object["units"] = units.into();
-    object["time"] = json!(history.time);
-    object["signals"] = signals.into();
     object
 }
 

@@ -2,13 +2,17 @@
 
 pub(super) mod csv;
 pub(super) mod json;
+mod recording;
 pub(super) mod table;
 
 use super::axes::Axes;
 use super::report::turned;
 use super::{Given, Kind, Results, Writer};
-use analyses::transient::{Crossing, Drift, LimitMet, Trajectory};
+use crate::Failure;
+use analyses::transient::{Crossing, Drift, LimitMet};
 use problem::{IntegrationOutcome, Signal};
+pub use recording::{Recording, Tape};
+use std::io;
 
 /// How an integration went.
 #[derive(Clone, Debug)]
@@ -52,16 +56,38 @@ pub struct History {
     pub signals: Vec<Signal>,
     /// Indices of the signals that table and figure show.
     pub shown: Vec<usize>,
-    /// Sampling times, s.
-    pub time: Vec<f64>,
-    /// One column per signal, one value per time.
-    pub columns: Vec<Vec<f64>>,
+    /// One column per signal.
+    pub recording: Recording,
     /// How it went.
     pub outcome: Outcome,
     /// The coordinates, and what else was to be kept for an animation; always in ISO axes. Empty where nobody asked.
-    pub kept: Trajectory,
+    pub kept: Kept,
     /// What the reader should know beside the results. The table leaves them to standard error.
     pub warnings: Vec<String>,
+}
+
+/// Named columns of a recording.
+#[derive(Clone, Debug, Default)]
+pub struct Kept {
+    /// Their signals.
+    pub signals: Vec<Signal>,
+    /// One column per signal.
+    pub recording: Recording,
+}
+
+impl History {
+    /// The values of a signal, SI; `None` where it was not recorded.
+    ///
+    /// # Errors
+    /// What was recorded cannot be read again.
+    pub fn column(&self, name: &str) -> Result<Option<Vec<f64>>, Failure> {
+        self.signals.iter().position(|s| s.name == name).map(|k| self.recording.column(k)).transpose().map_err(unreadable)
+    }
+}
+
+/// What to say where a recording cannot be read again.
+pub fn unreadable(cause: io::Error) -> Failure {
+    Failure::Recording { cause: cause.to_string() }
 }
 
 impl Results for History {
@@ -72,8 +98,8 @@ impl Results for History {
         for (given, value) in &mut self.given {
             *value = turned(*value, &given.name);
         }
-        for (column, signal) in self.columns.iter_mut().zip(&self.signals) {
-            column.iter_mut().for_each(|v| *v = turned(*v, &signal.name));
+        for (k, signal) in self.signals.iter().enumerate() {
+            self.recording.turn(k, turned(1.0, &signal.name));
         }
         for limit in &mut self.outcome.limits {
             (limit.value, limit.threshold) = (turned(limit.value, &limit.signal), turned(limit.threshold, &limit.signal));

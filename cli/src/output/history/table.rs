@@ -25,11 +25,13 @@ pub(in crate::output) fn write(history: &History, options: &Options, out: &mut d
         writeln!(out, "given: {given}")?;
     }
     writeln!(out)?;
-    let rows = thinned(history.time.len());
-    let mut columns = vec![Column::new("time", "s", rows.iter().map(|&k| history.time[k]), options.angles)];
+    let time = history.recording.time();
+    let rows = thinned(time.len());
+    let mut columns = vec![Column::new("time", "s", rows.iter().map(|&k| time[k]), options.angles)];
     for &s in &history.shown {
         let signal = &history.signals[s];
-        columns.push(Column::new(&signal.name, &signal.unit, rows.iter().map(|&k| history.columns[s][k]), options.angles));
+        let values = history.recording.column(s)?;
+        columns.push(Column::new(&signal.name, &signal.unit, rows.iter().map(|&k| values[k]), options.angles));
     }
     let line = |text: &dyn Fn(&Column) -> String| {
         columns.iter().map(|c| format!("{:>width$}", text(c), width = c.width())).collect::<Vec<_>>().join("  ")
@@ -39,8 +41,8 @@ pub(in crate::output) fn write(history: &History, options: &Options, out: &mut d
     for row in 0..rows.len() {
         writeln!(out, "{}", line(&|c| c.cells[row].clone()).trim_end())?;
     }
-    if rows.len() < history.time.len() {
-        let all = format!("{} of {} samples; `--format csv` writes all", rows.len(), history.time.len());
+    if rows.len() < time.len() {
+        let all = format!("{} of {} samples; `--format csv` writes all", rows.len(), time.len());
         writeln!(out, "{}", styled(palette.faint, &all))?;
     }
     writeln!(out)?;

@@ -52,11 +52,29 @@ impl<'a, 'p> Observer<'a, 'p> {
         self.plant.borrow_mut().evaluate(at, &mut self.residual, &mut self.outputs)
     }
 
-    /// The value of a variable at the point looked at last.
-    pub(super) fn value(&self, variable: Variable, (y, yd): (&[f64], &[f64])) -> f64 {
+    /// All signals at the point looked at last.
+    pub(super) fn sample<'s>(&'s self, time: f64, (y, yd): (&'s [f64], &'s [f64])) -> Sample<'s> {
+        Sample { time, y, yd, u: &self.u, outputs: &self.outputs }
+    }
+}
+
+/// All signals of a plant at one time.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<'s> {
+    /// Time, s.
+    pub time: f64,
+    y: &'s [f64],
+    yd: &'s [f64],
+    u: &'s [f64],
+    outputs: &'s [f64],
+}
+
+impl Sample<'_> {
+    /// The value of a variable, SI.
+    pub fn value(&self, variable: Variable) -> f64 {
         match variable {
-            Variable::Unknown(i) => y[i],
-            Variable::Rate(i) => yd[i],
+            Variable::Unknown(i) => self.y[i],
+            Variable::Rate(i) => self.yd[i],
             Variable::Input(i) => self.u[i],
             Variable::Output(i) => self.outputs[i],
         }

@@ -31,6 +31,7 @@ pub use track::{Drifting, Driven, Pulse, Ramp, Step, Table, Track};
 pub use trajectory::{Crossing, Drift, LimitMet, NearSingular, Trajectory, Worst};
 
 use crate::{Variable, Variables};
+pub use acting::Sample;
 use acting::{Acting, Observer};
 use integrate::Integration;
 use pieces::{Pieces, met};
@@ -169,7 +170,9 @@ impl Transient {
         self.run_watched(plant, inputs, method, &mut |_| Flow::Continue)
     }
 
-    /// Runs it and tells `watcher` the time of every sample; it may ask for the end.
+    /// Runs it and shows `watcher` every sample as it is taken, the point reached beyond the last one included; it may ask for the end.
+    ///
+    /// Whoever keeps samples that way need not have them recorded: `record` may be empty.
     ///
     /// # Errors
     /// As [`Transient::run`].
@@ -178,14 +181,14 @@ impl Transient {
         plant: &mut dyn Integrable,
         inputs: &dyn Inputs,
         method: Method<'_>,
-        watcher: &mut dyn FnMut(f64) -> Flow,
+        watcher: &mut dyn FnMut(&Sample<'_>) -> Flow,
     ) -> Result<Simulation, TransientError> {
         let (mut y, mut yd) = self.consistent_start(plant, inputs)?;
         let variables = Variables::of(&*plant);
         let watch = Watch::new(&*plant, &self.ends, &variables)?;
         let (plant, acting) = (RefCell::new(plant), Acting::new(inputs));
         // one more: the time reached, where it lies between two samples
-        let mut recorder = Recorder::new(&plant, &acting, &variables, &self.record, self.times.len() + 1);
+        let mut recorder = Recorder::new(&plant, &acting, &variables, (&self.record, self.times.len() + 1), watcher);
         let spacing = self.times.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
         let options = (self.options, self.algebraic_factor.unwrap_or(self.options.absolute_tolerance_factor));
         let work = Integration::new((&plant, &acting, &watch), method, (&y, &yd), options, spacing);
@@ -193,7 +196,7 @@ impl Transient {
         let mut crossings = Vec::new();
         let (ending, statistics) = match self.met_at_start(&plant, &acting, &watch, (&y, &yd)) {
             Some(ending) => (ending, IntegrationOutcome::nothing_done(IntegrationEnding::Finished, self.times[0])),
-            None => pieces.integrate((&plant, &acting, &watch), work, (&mut y, &mut yd), &mut recorder, (&mut crossings, watcher)),
+            None => pieces.integrate((&plant, &acting, &watch), work, (&mut y, &mut yd), &mut recorder, &mut crossings),
         };
         // what was reached beyond the last sample is kept too
         let beyond = recorder.last_time().is_none_or(|last| last < statistics.time);

@@ -48,7 +48,7 @@ impl Pieces<'_> {
         mut work: Integration<'_, '_, '_>,
         (y, yd): (&mut [f64], &mut [f64]),
         recorder: &mut Recorder<'_, '_>,
-        (crossings, watcher): (&mut Vec<Crossing>, &mut dyn FnMut(f64) -> Flow),
+        crossings: &mut Vec<Crossing>,
     ) -> (TransientEnding, IntegrationOutcome) {
         let (samples, last) = (self.samples, self.samples[self.samples.len() - 1]);
         let (mut from, mut begin) = (samples[0], samples[0]);
@@ -67,10 +67,7 @@ impl Pieces<'_> {
                     return Flow::Continue;
                 }
                 *next += 1;
-                match recorder.sample(time, y, yd) {
-                    Flow::Stop => Flow::Stop,
-                    Flow::Continue => watcher(time),
-                }
+                recorder.sample(time, y, yd)
             };
             let (outcome, cause) = work.piece(&self.times, (&mut *y, &mut *yd), &mut sink);
             total = sum(&total, &outcome);

@@ -1,7 +1,7 @@
 //! Takes samples: recorded signals, drift of the constraints, limits that were met.
 
 use super::SharedPlant;
-use super::acting::{Acting, Observer};
+use super::acting::{Acting, Observer, Sample};
 use super::diagnosis::off;
 use super::trajectory::{Drift, LimitMet, NearSingular, Trajectory, Worst};
 use crate::{Variable, Variables};
@@ -38,6 +38,7 @@ pub(super) struct Recorder<'a, 'p> {
     /// Independence of the constraints at the first sample, and the least so far with its time.
     independence: Option<(f64, f64, f64)>,
     failure: Option<EvalError>,
+    watcher: &'a mut dyn FnMut(&Sample<'_>) -> Flow,
 }
 
 impl<'a, 'p> Recorder<'a, 'p> {
@@ -45,8 +46,8 @@ impl<'a, 'p> Recorder<'a, 'p> {
         plant: &'a SharedPlant<'p>,
         acting: &'a Acting<'a>,
         variables: &Variables,
-        record: &[Variable],
-        samples: usize,
+        (record, samples): (&[Variable], usize),
+        watcher: &'a mut dyn FnMut(&Sample<'_>) -> Flow,
     ) -> Self {
         let p = plant.borrow();
         let rows = |kind: EquationKind| p.equations().iter().enumerate().filter(move |(_, e)| e.kind == kind).map(|(i, _)| i).collect();
@@ -63,17 +64,19 @@ impl<'a, 'p> Recorder<'a, 'p> {
             limits: watched.collect(),
             independence: None,
             failure: None,
+            watcher,
         }
     }
 
-    /// Takes one sample. One that cannot be evaluated is not part of the record, and nothing further is asked for.
+    /// Takes one sample and shows it to the watcher. One that cannot be evaluated is not part of the record, and nothing further is asked for.
     pub(super) fn sample(&mut self, time: f64, y: &[f64], yd: &[f64]) -> Flow {
         if let Err(e) = self.observer.look(time, y, yd) {
             self.failure = Some(e);
             return Flow::Stop;
         }
         let observer = &self.observer;
-        let value = |v: Variable| observer.value(v, (y, yd));
+        let sample = observer.sample(time, (y, yd));
+        let value = |v: Variable| sample.value(v);
         self.trajectory.time.push(time);
         for (column, &v) in self.trajectory.columns.iter_mut().zip(&self.record) {
             column.push(value(v));
@@ -98,7 +101,8 @@ impl<'a, 'p> Recorder<'a, 'p> {
                 }
             }
         }
-        Flow::Continue
+        drop(plant);
+        (self.watcher)(&sample)
     }
 
     /// Time of the last sample, s.

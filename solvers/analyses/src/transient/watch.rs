@@ -68,8 +68,9 @@ impl Watch {
         if !self.plain {
             observer.look(time, point.0, point.1)?;
         }
+        let sample = observer.sample(time, point);
         for (value, condition) in values.iter_mut().zip(&self.conditions) {
-            let room = condition.limit.margin(observer.value(condition.variable, point));
+            let room = condition.limit.margin(sample.value(condition.variable));
             let back = if condition.violated.get() { ROOM } else { 0.0 };
             // a signal without a value here cannot cross anything
             *value = if room.is_finite() && condition.told.get() < MOST { room - back } else { 1.0 };

@@ -100,9 +100,9 @@ fn a_watcher_may_stop_and_a_condition_may_hold_at_once() {
     let mut plant = oscillator();
     let mut transient = Transient::new(&plant, evenly(2.0, 41));
     let mut seen = Vec::new();
-    let stopped = transient.run_watched(&mut plant, &Constant(vec![0.0]), Method::Ode(&mut RungeKutta { step: 1e-2 }), &mut |time| {
-        seen.push(time);
-        if time < 0.5 { Flow::Continue } else { Flow::Stop }
+    let stopped = transient.run_watched(&mut plant, &Constant(vec![0.0]), Method::Ode(&mut RungeKutta { step: 1e-2 }), &mut |sample| {
+        seen.push(sample.time);
+        if sample.time < 0.5 { Flow::Continue } else { Flow::Stop }
     });
     let stopped = stopped.expect("a start");
     assert_eq!((stopped.ending.name(), &stopped.trajectory.time), ("stopped", &seen));
