@@ -30,6 +30,8 @@ pub struct Evaluation<S> {
     pub outputs: Vec<S>,
     /// Work arrays of the tree.
     pub tree: Workspace<S>,
+    /// Whether the bodies were ever placed.
+    placed: bool,
     joint_efforts: Vec<S>,
     /// [rows of all constraints] error, rate, acceleration.
     pub(super) rows: Vec<RowValue<S>>,
@@ -68,6 +70,7 @@ impl Make<Evaluations> for Maker<'_> {
             residual: zeros(form.equations.len()),
             outputs: zeros(system.outputs.len()),
             tree: Workspace::new(&system.model),
+            placed: false,
             joint_efforts: zeros(nv),
             rows: vec![RowValue::default(); rows],
             directions: vec![Wrench::zero(); rows],
@@ -122,6 +125,7 @@ impl<S: SystemScalar> Evaluation<S> {
         kinematics::position(model, &mut w.position);
         kinematics::world(model, &w.position, &mut w.world);
         kinematics::velocity(model, &w.position, &mut w.velocity);
+        self.placed = true;
     }
 
     /// Fills the stage of accelerations from ẏ.
@@ -139,11 +143,24 @@ impl<S: SystemScalar> Evaluation<S> {
         self.motion(system);
         self.elements(system, form);
         let (model, w) = (&system.model, &mut self.tree);
-        w.tau.copy_from_slice(&self.joint_efforts);
+        std::mem::swap(&mut w.tau, &mut self.joint_efforts);
         aba(model, w);
         let nq = model.layout.nq();
         for_each_rate(model, &w.position.q, &w.velocity.v, |row, rate| rates[row] = rate);
         rates[nq..].copy_from_slice(&w.acceleration.vd);
+    }
+
+    /// Evaluates the outputs at `(time, y, yd, u)`; y need not have `moved` since the last evaluation. The residual is left in any state.
+    /// Allocates nothing.
+    pub(super) fn observe(&mut self, system: &System, form: &Form, moved: bool) {
+        if !system.reactions.is_empty() {
+            return self.run(system, form);
+        }
+        if moved || !self.placed {
+            self.motion(system);
+        }
+        self.accelerations(system);
+        self.elements(system, form);
     }
 
     /// Evaluates residual and outputs at `(time, y, yd, u)`. Allocates nothing.

@@ -5,6 +5,7 @@ use super::evaluation::{Evaluation, Evaluations, Maker};
 use super::explicit::ExplicitSolver;
 use super::{Account, Element, Form, Formulation, System};
 use crate::scalar::{Lanes, PerScalar, SystemScalar};
+use problem::contract::finite;
 use problem::{
     At, Dae, Differentiable, Equation, EvalError, Explicit, Input, Limit, Limits, Matrix, Outputs, Projection, ProjectionError, Seeds,
     Signal, Unknown,
@@ -75,7 +76,9 @@ impl TreePlant {
     /// Writes the rates of coordinates and velocities of a tree without constraints and states.
     pub(super) fn forward_at(&mut self, at: At<'_>, rates: &mut [f64]) {
         let e = f64::pick_mut(&mut self.evaluations);
-        load(e, at);
+        e.time = at.time;
+        e.y.copy_from_slice(at.y);
+        e.u.copy_from_slice(at.u);
         e.forward(&self.system, &self.form, rates);
     }
 
@@ -119,14 +122,6 @@ fn load<S: SystemScalar>(e: &mut Evaluation<S>, at: At<'_>) {
     }
 }
 
-/// First row that is not finite.
-fn first_non_finite(residual: &[f64]) -> Result<(), EvalError> {
-    match residual.iter().position(|r| !r.is_finite()) {
-        Some(equation) => Err(EvalError::Recoverable { equation }),
-        None => Ok(()),
-    }
-}
-
 impl Dae for TreePlant {
     fn unknowns(&self) -> &[Unknown] {
         &self.form.unknowns
@@ -139,7 +134,7 @@ impl Dae for TreePlant {
     }
     fn residual(&mut self, at: At<'_>, residual: &mut [f64]) -> Result<(), EvalError> {
         residual.copy_from_slice(&self.evaluate_at(at).residual);
-        first_non_finite(residual)
+        finite(residual)
     }
 }
 
@@ -151,7 +146,16 @@ impl Outputs for TreePlant {
         let e = self.evaluate_at(at);
         residual.copy_from_slice(&e.residual);
         outputs.copy_from_slice(&e.outputs);
-        first_non_finite(residual)
+        finite(residual)
+    }
+    fn observe(&mut self, at: At<'_>, _residual: &mut [f64], outputs: &mut [f64]) -> Result<(), EvalError> {
+        let e = f64::pick_mut(&mut self.evaluations);
+        // where the rates were just solved for, bodies are where they were
+        let moved = e.y != at.y;
+        load(e, at);
+        e.observe(&self.system, &self.form, moved);
+        outputs.copy_from_slice(&e.outputs);
+        Ok(())
     }
 }
 
@@ -217,8 +221,8 @@ impl Differentiable for TreePlant {
                 _ => sweep::<Lanes<6>>(self, at, seeds, first, v, d),
             };
         }
-        first_non_finite(values.0)?;
-        first_non_finite(residual.as_slice()).map_err(|e| match e {
+        finite(values.0)?;
+        finite(residual.as_slice()).map_err(|e| match e {
             EvalError::Recoverable { equation } => EvalError::Recoverable { equation: equation % residual.rows() },
             fatal @ EvalError::Fatal { .. } => fatal,
         })

@@ -44,10 +44,12 @@ pub fn resolution(a: f64, b: f64) -> f64 {
 
 /// `Ok` where every entry is finite, else the recoverable error that names the first row which is not.
 pub fn finite(values: &[f64]) -> Result<(), EvalError> {
-    match values.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(equation) => Err(EvalError::Recoverable { equation }),
+    // all are, nearly always: a count without branches is several times faster than a search
+    if values.iter().filter(|value| value.is_finite()).count() == values.len() {
+        return Ok(());
     }
+    let equation = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
+    Err(EvalError::Recoverable { equation })
 }
 
 /// The first event function that reached or passed zero.

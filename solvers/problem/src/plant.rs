@@ -142,6 +142,10 @@ pub trait Outputs: Dae {
     fn outputs(&self) -> &[Signal];
     /// Writes F and z in one pass.
     fn evaluate(&mut self, at: At<'_>, residual: &mut [f64], outputs: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes z alone, where that is cheaper; `residual` is room to work in and means nothing afterwards.
+    fn observe(&mut self, at: At<'_>, residual: &mut [f64], outputs: &mut [f64]) -> Result<(), EvalError> {
+        self.evaluate(at, residual, outputs)
+    }
 }
 
 /// Exact directional derivatives. The IDA matrix, E, A, B, C, D and trim Jacobians are all choices of seeds.

@@ -4,6 +4,7 @@
 //! then `v̇ = ABA(q, v, τ)` in O(n), without a matrix. Source: Featherstone (2008), table 7.1.
 
 use super::super::{System, TreePlant};
+use problem::contract::finite;
 use problem::{At, EvalError};
 
 /// Whether a system whose forces do not depend on accelerations is a tree of independent joints without further states.
@@ -14,8 +15,5 @@ pub(super) fn applies(system: &System) -> bool {
 /// Writes all rates.
 pub(super) fn solve(plant: &mut TreePlant, at: At<'_>, rates: &mut [f64]) -> Result<(), EvalError> {
     plant.forward_at(at, rates);
-    match rates.iter().position(|rate| !rate.is_finite()) {
-        None => Ok(()),
-        Some(equation) => Err(EvalError::Recoverable { equation }),
-    }
+    finite(rates)
 }

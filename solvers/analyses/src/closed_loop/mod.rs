@@ -253,6 +253,13 @@ impl<P: Plant> Outputs for ClosedLoop<P> {
         let at = At { time: at.time, y: &at.y[..ny], yd: &at.yd[..ny], u: &self.u };
         self.plant.evaluate(at, of_plant, &mut outputs[..nz])
     }
+    fn observe(&mut self, at: At<'_>, residual: &mut [f64], outputs: &mut [f64]) -> Result<(), EvalError> {
+        self.command(at.time, at.y, at.u)?;
+        let (ny, nf, nz) = (self.plant.unknowns().len(), self.plant.equations().len(), self.plant.outputs().len());
+        self.wires.iter().for_each(|wire| wire.tell(outputs));
+        let at = At { time: at.time, y: &at.y[..ny], yd: &at.yd[..ny], u: &self.u };
+        self.plant.observe(at, &mut residual[..nf], &mut outputs[..nz])
+    }
 }
 
 impl<P: Plant> Differentiable for ClosedLoop<P> {

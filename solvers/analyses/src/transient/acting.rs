@@ -52,6 +52,13 @@ impl<'a, 'p> Observer<'a, 'p> {
         self.plant.borrow_mut().evaluate(at, &mut self.residual, &mut self.outputs)
     }
 
+    /// Evaluates inputs and outputs.
+    pub(super) fn glance(&mut self, time: f64, y: &[f64], yd: &[f64]) -> Result<(), EvalError> {
+        self.acting.at(time, &mut self.u);
+        let at = At { time, y, yd, u: &self.u };
+        self.plant.borrow_mut().observe(at, &mut self.residual, &mut self.outputs)
+    }
+
     /// All signals at the point looked at last.
     pub(super) fn sample<'s>(&'s self, time: f64, (y, yd): (&'s [f64], &'s [f64])) -> Sample<'s> {
         Sample { time, y, yd, u: &self.u, outputs: &self.outputs }

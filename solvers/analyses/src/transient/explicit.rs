@@ -4,6 +4,7 @@ use super::SharedPlant;
 use super::acting::{Acting, Observer};
 use super::differences::Differences;
 use super::watch::Watch;
+use problem::contract::finite;
 use problem::{At, Derivatives, EquationKind, EvalError, Integrable, Matrix, OdeProblem, Off, ProjectionError, Seeds, UnknownKind};
 
 /// All unknowns of a plant around the states of its explicit form.
@@ -50,13 +51,12 @@ impl<'a, 'p> Whole<'a, 'p> {
         }
         self.scatter(time, states);
         self.plant.borrow_mut().solve_rates(time, &mut self.y, &self.u, &mut self.yd)?;
-        match self.states.iter().position(|&i| !self.yd[i].is_finite()) {
-            Some(k) => Err(EvalError::Recoverable { equation: self.rows[k] }),
-            None => {
-                self.completed = Some(time);
-                Ok((&self.y, &self.yd))
-            }
+        let lost = || self.states.iter().position(|&i| !self.yd[i].is_finite());
+        if let Some(k) = finite(&self.yd).err().and_then(|_| lost()) {
+            return Err(EvalError::Recoverable { equation: self.rows[k] });
         }
+        self.completed = Some(time);
+        Ok((&self.y, &self.yd))
     }
 
     /// The next point is completed anew, even if it is the last one.

@@ -66,7 +66,7 @@ impl Watch {
         values: &mut [f64],
     ) -> Result<(), EvalError> {
         if !self.plain {
-            observer.look(time, point.0, point.1)?;
+            observer.glance(time, point.0, point.1)?;
         }
         let sample = observer.sample(time, point);
         for (value, condition) in values.iter_mut().zip(&self.conditions) {
