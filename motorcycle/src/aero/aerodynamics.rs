@@ -70,12 +70,13 @@ struct Flow<S> {
 
 impl Aerodynamics {
     fn flow<S: SystemScalar>(&self, at: &Evaluated<'_, S>) -> Flow<S> {
-        let X = *at.X_WB(self.body) * Pose::from_f64(&self.frame);
-        let [_, y, z] = X.R.columns;
+        let X = at.X_WB(self.body);
+        let [y, z] = [1, 2].map(|k| X.R.times_const(self.frame.R.columns[k]));
+        let point = X.point_const(self.frame.p);
         // the horizontal part of y is across the heading, whatever roll and pitch
         let across = (y.x * y.x + y.y * y.y).sqrt().recip() * at.input(0);
         let wind = Vec3::new(y.x * across, y.y * across, S::zero());
-        let velocity = at.v_WQ(self.body, X.p);
+        let velocity = at.v_WQ(self.body, point);
         let relative = velocity - wind;
         let squared = relative.dot(relative);
         let speed = (squared + ROUNDING * ROUNDING).sqrt();
@@ -83,18 +84,7 @@ impl Aerodynamics {
         let drag = -relative.scaled(speed * (0.5 * self.density * self.drag_area));
         let side = -y.scaled(speed * relative.dot(y) * (0.5 * self.density * self.side_area));
         let nose_up = pressure * self.pitch_volume;
-        Flow {
-            point: X.p,
-            velocity,
-            relative,
-            speed,
-            drag,
-            lift: pressure * self.lift_area,
-            side,
-            up: z,
-            moment: -y.scaled(nose_up),
-            nose_up,
-        }
+        Flow { point, velocity, relative, speed, drag, lift: pressure * self.lift_area, side, up: z, moment: -y.scaled(nose_up), nose_up }
     }
 }
 

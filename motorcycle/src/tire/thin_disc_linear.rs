@@ -57,9 +57,11 @@ impl ThinDiscLinear {
 
         let (speed_x, speed_y) = (v.dot(frame.x), v.dot(frame.y));
         let reference = (speed_x * speed_x + self.low_speed * self.low_speed).sqrt();
+        // V* is positive: the arc tangent of the quotient is the angle
+        let lateral_slip = -(speed_y / reference);
         let slip = Slip {
             load,
-            lateral: -(speed_y.atan2(reference)),
+            lateral: lateral_slip.atan(),
             longitudinal: (speed_x - (wheel.spin + about_axle) * radius) * -reference.recip(),
             camber: frame.camber,
             speed: reference,
@@ -76,7 +78,7 @@ impl ThinDiscLinear {
             support: load,
             friction,
             rolling_moment: S::zero(),
-            lateral_slip: slip.lateral.tan(),
+            lateral_slip,
             longitudinal_slip: slip.longitudinal,
             rows: [S::zero(); 2],
             stored,
