@@ -5,6 +5,7 @@ use crate::tree::Named;
 use crate::vehicle::State;
 use analyses::Variables;
 use analyses::transient::{Driven, Inputs, Method, Simulation, Start, Transient, Worst};
+use fastbike::backend::{Integrator, integration};
 use fastbike::library::Source;
 use fastbike::standard_kinds;
 use mbody::assembly::{BaseDescription, assemble, assemble_urdf};
@@ -29,6 +30,8 @@ pub enum By {
     Adams(f64, f64),
     /// Dormand and Prince's pair on the explicit form with projection; tolerances as before.
     Dopri5(f64, f64),
+    /// A row of the command's table of integrators, by name; tolerances as before.
+    Named(&'static str, f64, f64),
 }
 
 impl By {
@@ -37,9 +40,10 @@ impl By {
         | Self::Ida(relative_tolerance, absolute_tolerance_factor)
         | Self::Bdf(relative_tolerance, absolute_tolerance_factor)
         | Self::Adams(relative_tolerance, absolute_tolerance_factor)
-        | Self::Dopri5(relative_tolerance, absolute_tolerance_factor)) = self;
+        | Self::Dopri5(relative_tolerance, absolute_tolerance_factor)
+        | Self::Named(_, relative_tolerance, absolute_tolerance_factor)) = self;
         let algebraic = AlgebraicErrors::Suppressed;
-        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 50_000, algebraic, ..Default::default() }
+        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 500_000, algebraic, ..Default::default() }
     }
 
     /// Runs a simulation with these tolerances.
@@ -50,7 +54,19 @@ impl By {
         transient.options = self.options();
         let (mut erk, mut ida, mut bdf, mut adams) = (RungeKutta::explicit(), Ida::default(), Cvode::bdf(), Cvode::adams());
         let mut dopri5 = DormandPrince::default();
+        let row = |name: &str| integration(name).unwrap_or_else(|| panic!("no integrator `{name}`")).make;
+        let (mut implicit, mut explicit);
         let method = match self {
+            Self::Named(name, ..) => match row(name) {
+                Integrator::Implicit(make) => {
+                    implicit = make();
+                    Method::Dae(implicit.as_mut())
+                }
+                Integrator::Explicit(make) => {
+                    explicit = make();
+                    Method::Ode(explicit.as_mut())
+                }
+            },
             Self::Dopri5(..) => Method::Ode(&mut dopri5),
             Self::Erk(..) => Method::Ode(&mut erk),
             Self::Ida(..) => Method::Dae(&mut ida),
