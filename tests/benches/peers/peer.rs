@@ -62,7 +62,7 @@ pub fn print(measured: &[Measured]) {
     same_machine(measured);
 }
 
-/// Times Pinocchio through its Python package where there is one, on this machine and in this run.
+/// Times Pinocchio where its Python package is, on this machine and in this run: in C++ if that can be compiled.
 fn same_machine(measured: &[Measured]) {
     let Ok(python) = std::env::var("PINOCCHIO_PYTHON") else {
         println!("\nPINOCCHIO_PYTHON is not set: no peer was timed on this machine.");
@@ -74,12 +74,15 @@ fn same_machine(measured: &[Measured]) {
         Ok(output) => return println!("\n{python} failed: {}", String::from_utf8_lossy(&output.stderr)),
         Err(error) => return println!("\n{python} cannot be run: {error}"),
     };
-    println!("\nPinocchio on this machine, called from Python; an empty call costs part of it");
-    println!("{:<34}{:>12}{:>14}", "case", "µs", "ours / it");
+    let how = text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or("Pinocchio");
+    println!("\non this machine, in this run: {how}");
+    println!("{:<34}{:>12}{:>14}{:>10}", "case", "µs", "ours / it", "allowed");
     for line in text.lines() {
         let Some((case, ns)) = line.split_once('\t') else { continue };
         let Ok(ns) = ns.parse::<f64>() else { continue };
         let quotient = measured.iter().find(|m| m.name == case).map_or("–".to_owned(), |m| format!("{:.2}", m.least / ns));
-        println!("{case:<34}{:>12.3}{quotient:>14}", ns / 1e3);
+        let allowed =
+            PEERS.iter().find(|row| row.case == case).and_then(|row| row.allowed).map_or("–".to_owned(), |a| format!("≤ {a:.2}"));
+        println!("{case:<34}{:>12.3}{quotient:>14}{allowed:>10}", ns / 1e3);
     }
 }
