@@ -25,6 +25,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "central differences, extrapolated (Ridders)",
         "1e-8 of the largest entry of the row in nominal units: rounding over the step"
     ),
+    outputs_alone_are_those_of_the_residual => (
+        "outputs without the residual are those with it, at first, after a motion and where only rates or inputs change, in every bundled model",
+        "identity",
+        "exact: the same operations"
+    ),
 ];
 
 /// States of each model.
@@ -255,4 +260,26 @@ fn derivatives_are_exact_in_every_formulation() {
         }
     }
     agreement.assert();
+}
+
+#[test]
+fn outputs_alone_are_those_of_the_residual() {
+    let mut numbers = Numbers(5);
+    for model in bundled_models() {
+        let Point { plant: mut other, y, yd, u } = Point::general(model, Formulation::Ggl, &mut numbers);
+        let mut plant = TreePlant::in_formulation(system(model), Formulation::Ggl);
+        let (mut room, mut found, mut expected) = (vec![0.0; yd.len()], vec![0.0; plant.outputs().len()], vec![0.0; plant.outputs().len()]);
+        let (still, idle) = (vec![0.0; yd.len()], vec![0.0; u.len()]);
+        for (y, yd, u) in [(&still, &still, &idle), (&y, &yd, &u), (&y, &still, &u), (&y, &yd, &idle), (&still, &yd, &u)] {
+            let at = At { time: 0.3, y, yd, u };
+            // some models cannot be evaluated where everything is zero
+            if other.evaluate(at, &mut room, &mut expected).is_err() {
+                continue;
+            }
+            plant.observe(at, &mut room, &mut found).unwrap_or_else(|error| panic!("{model}: {error:?}"));
+            for (signal, (a, b)) in plant.outputs().iter().zip(found.iter().zip(&expected)) {
+                assert!(a == b || (a.is_nan() && b.is_nan()), "{model}, {}: {a} is not {b}", signal.name);
+            }
+        }
+    }
 }
