@@ -16,6 +16,23 @@ pub struct Captured {
     pub stderr: String,
 }
 
+/// A stream that remembers whether its reader has gone: writers of formats give errors of their own.
+struct Pipe<W> {
+    out: W,
+    gone: bool,
+}
+
+impl<W: Write> Write for Pipe<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes);
+        self.gone |= written.as_ref().is_err_and(|e| e.kind() == ErrorKind::BrokenPipe);
+        written
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
 /// The two streams of a command.
 #[derive(Debug)]
 pub struct Console {
@@ -70,14 +87,13 @@ impl Console {
                 written
             }
             None => {
-                let mut out = BufWriter::new(io::stdout().lock());
-                write(&mut out).and_then(|()| out.flush())
+                let mut out = BufWriter::new(Pipe { out: io::stdout().lock(), gone: false });
+                let streamed = write(&mut out).and_then(|()| out.flush());
+                let (pipe, _) = out.into_parts();
+                if pipe.gone { Ok(()) } else { streamed }
             }
         };
-        match streamed {
-            Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Write { path: "standard output".to_owned(), cause: e.to_string() }),
-            _ => Ok(()),
-        }
+        streamed.map_err(|e| Failure::Write { path: "standard output".to_owned(), cause: e.to_string() })
     }
 
     /// Writes to standard error. Nothing can be said where that fails.

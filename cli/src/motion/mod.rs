@@ -21,6 +21,7 @@ use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
 use problem::{Dae, Derivatives, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
+use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -160,7 +161,8 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     };
     let [of_motion, told_columns, kept_columns] = [&moving, &recorded.variables, &beside].map(|wanted| places(wanted));
     let began = Instant::now();
-    let (simulation, tape) = follow(&mut transient, &mut plant, &beginning, &taped, (&backend.make, request.interrupt), &mut warnings)?;
+    let (simulation, tape, full) =
+        follow(&mut transient, &mut plant, &beginning, &taped, (&backend.make, request.interrupt), &mut warnings)?;
     let wall = began.elapsed().as_secs_f64();
     let all = tape.finish();
     if let Some(near) = simulation.near_singular {
@@ -185,7 +187,10 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         recording.insert(at, std::mem::take(&mut accounts.columns[which]));
     }
     warnings.extend(trust::left(system, &signals, |k| recording.column(k)).map_err(unreadable)?);
-    let (condition, because) = told(&simulation.ending, &transient.ends);
+    let (condition, because) = match full {
+        Some(cause) => (None, Some(unreadable(cause).to_string())),
+        None => told(&simulation.ending, &transient.ends),
+    };
     let shown = if request.record.is_empty() { shown(&signals, &plant) } else { (0..signals.len()).collect() };
     Ok(History {
         model: model.to_owned(),
@@ -286,7 +291,7 @@ fn follow(
     taped: &[Variable],
     (make, interrupt): (&Integrator, Option<&Interrupt>),
     warnings: &mut Vec<String>,
-) -> Result<(Simulation, Tape), Failure> {
+) -> Result<(Simulation, Tape, Option<io::Error>), Failure> {
     let stated = beginning.start.clone();
     transient.start = stated.clone();
     for &(i, value) in &beginning.given {
@@ -297,7 +302,9 @@ fn follow(
         let (mut tape, mut full) = (Tape::new(taped.len()), None);
         let mut watcher = |sample: &Sample<'_>| {
             progress.advance();
-            full = tape.push(sample.time, taped.iter().map(|&v| sample.value(v))).err();
+            if full.is_none() {
+                full = tape.push(sample.time, taped.iter().map(|&v| sample.value(v))).err();
+            }
             if full.is_some() || interrupt.is_some_and(Interrupt::is_set) { Flow::Stop } else { Flow::Continue }
         };
         let run = match make {
@@ -319,11 +326,7 @@ fn follow(
             warnings.push(format!("`start` of the description does not go with what is given; it was left for {names}"));
         }
     }
-    match tried {
-        Ok((_, _, Some(full))) => Err(unreadable(full)),
-        Ok((simulation, tape, None)) => Ok((simulation, tape)),
-        Err(error) => Err(cannot_start(&error, plant, &transient.start, beginning).into()),
-    }
+    tried.map_err(|error| cannot_start(&error, plant, &transient.start, beginning).into())
 }
 
 /// Why a motion cannot start, with rows in mm and degrees and with what is held.

@@ -22,7 +22,9 @@ struct Blocks {
     time: Vec<f64>,
     kept: Vec<Vec<f64>>,
     spilled: Option<File>,
-    /// The last block, not yet full; its columns are [`ROWS`] apart all the same.
+    /// Blocks in the file.
+    written: usize,
+    /// The last block; its columns are [`ROWS`] apart, full or not.
     open: Vec<f64>,
 }
 
@@ -46,9 +48,9 @@ impl Tape {
     /// Adds a sample, one value per column.
     ///
     /// # Errors
-    /// The temporary file takes no more.
+    /// The temporary file takes no more. The sample is kept nevertheless, but no further one may be added.
     pub fn push(&mut self, time: f64, values: impl Iterator<Item = f64>) -> io::Result<()> {
-        let Blocks { width, time: times, kept, spilled, open } = &mut self.blocks;
+        let Blocks { width, time: times, kept, spilled, written, open } = &mut self.blocks;
         let row = times.len() % ROWS;
         for (column, value) in values.enumerate().take(*width) {
             open[column * ROWS + row] = value;
@@ -66,7 +68,9 @@ impl Tape {
             None => spilled.insert(tempfile::tempfile()?),
         };
         let bytes: Vec<u8> = open.iter().flat_map(|value| value.to_ne_bytes()).collect();
-        file.write_all(&bytes)
+        file.write_all(&bytes)?;
+        *written += 1;
+        Ok(())
     }
 
     /// The recording of all columns.
@@ -183,7 +187,7 @@ impl Recording {
 impl Blocks {
     /// Appends a range of the values of a block, which lies in one column.
     fn read(&self, block: usize, within: Range<usize>, buffer: &mut [u8], values: &mut Vec<f64>) -> io::Result<()> {
-        let last = self.time.len() / ROWS;
+        let last = self.kept.len() + self.written;
         if let Some(kept) = if block == last { Some(&self.open) } else { self.kept.get(block) } {
             values.extend_from_slice(&kept[within]);
             return Ok(());
@@ -228,5 +232,17 @@ mod tests {
             });
             assert!(read.is_ok() && seen == samples);
         }
+    }
+
+    /// What was recorded until the file took no more is still there.
+    #[test]
+    fn a_full_disk_loses_nothing() {
+        let mut tape = Tape::keeping(1, 2 * ROWS);
+        // a file that cannot be written
+        tape.blocks.spilled = Some(File::open("Cargo.toml").expect("a file of this package"));
+        let full = (0..).find(|&k| tape.push(k as f64, std::iter::once(-(k as f64))).is_err());
+        assert_eq!(full, Some(3 * ROWS - 1));
+        let expected: Vec<f64> = (0..3 * ROWS).map(|k| -(k as f64)).collect();
+        assert_eq!(tape.finish().column(0).expect("all in memory"), expected);
     }
 }
