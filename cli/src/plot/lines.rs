@@ -5,6 +5,10 @@ use super::canvas::{Anchor, Canvas, Ground, Lettering, Pen, Point, Rect, Setting
 use super::legend::{Key, Legend, draw_marker};
 use super::panel::{Panel, ROOM_BELOW, Side};
 use super::{style, text};
+use std::borrow::Cow;
+
+/// Points of a line beyond which those that cannot be told apart are left out.
+const MANY: usize = 4000;
 
 /// Whether the points of a curve are marked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -199,7 +203,7 @@ impl LinePanel {
         for (k, curve) in self.curves.iter().enumerate() {
             let pen = self.pen(k, (styles, variants));
             for run in runs(curve, panel) {
-                canvas.polyline(&run, pen);
+                canvas.polyline(&visible(&run), pen);
                 if curve.marked() || run.len() == 1 {
                     run.iter().for_each(|&p| draw_marker(canvas, styles + k, p, pen));
                 }
@@ -232,6 +236,23 @@ impl LinePanel {
         legend.draw_column(canvas, at);
         at.0 + legend.column_size().0 + style::BORDER
     }
+}
+
+/// What can be seen of a long line: of points that follow each other within a quarter of a pixel, the first, the lowest, the highest and the last.
+fn visible(run: &[Point]) -> Cow<'_, [Point]> {
+    if run.len() <= MANY {
+        return Cow::Borrowed(run);
+    }
+    let column = |p: &Point| (4.0 * p.0).floor();
+    let mut kept = Vec::new();
+    for same in run.chunk_by(|a, b| column(a) == column(b)) {
+        let by_height = |a: &usize, b: &usize| same[*a].1.total_cmp(&same[*b].1);
+        let (lowest, highest) = ((0..same.len()).min_by(by_height), (0..same.len()).max_by(by_height));
+        let mut indices = [0, lowest.unwrap_or(0), highest.unwrap_or(0), same.len() - 1];
+        indices.sort_unstable();
+        kept.extend(indices.iter().enumerate().filter(|(k, i)| *k == 0 || indices[k - 1] != **i).map(|(_, &i)| same[i]));
+    }
+    Cow::Owned(kept)
 }
 
 impl Curve {
@@ -272,4 +293,20 @@ pub(super) fn top_of(title: &str) -> f64 {
 pub(super) fn draw_title(canvas: &mut Canvas, title: &str, frame: Rect) {
     let at = (frame.x + frame.width / 2.0, style::BORDER + style::TITLE_SIZE - 1.0);
     canvas.text(title, Setting::new(at, style::TITLE_SIZE, Anchor::Middle));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A long noisy line keeps its ends and its extremes, and most of it goes.
+    #[test]
+    fn long_lines_lose_what_cannot_be_seen() {
+        let line: Vec<Point> = (0..100_000).map(|k| (k as f64 * 5e-3, ((k * 7919) % 1000) as f64)).collect();
+        let kept = visible(&line);
+        assert!(kept.len() <= 4 * 2001 && (kept[0], kept[kept.len() - 1]) == (line[0], line[99_999]), "{}", kept.len());
+        let range = |points: &[Point]| points.iter().fold((f64::MAX, f64::MIN), |(a, b), p| (a.min(p.1), b.max(p.1)));
+        assert_eq!(range(&kept), range(&line));
+        assert!(matches!(visible(&line[..MANY]), Cow::Borrowed(_)));
+    }
 }
