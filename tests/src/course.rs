@@ -12,10 +12,8 @@ use mbody::assembly::{BaseDescription, assemble, assemble_urdf};
 use mbody::description::Library;
 use mbody::dynamics::{Account, Formulation, System, TreePlant};
 use mbody::spatial::Vec3;
-use native::DormandPrince;
 use problem::{AlgebraicErrors, At, Dae, Integrable, IntegrationOptions};
 use std::sync::Arc;
-use sundials::{Cvode, Ida, RungeKutta};
 
 /// A method with its tolerances.
 #[derive(Clone, Copy, Debug)]
@@ -35,15 +33,16 @@ pub enum By {
 }
 
 impl By {
-    fn options(self) -> IntegrationOptions {
-        let (Self::Erk(relative_tolerance, absolute_tolerance_factor)
-        | Self::Ida(relative_tolerance, absolute_tolerance_factor)
-        | Self::Bdf(relative_tolerance, absolute_tolerance_factor)
-        | Self::Adams(relative_tolerance, absolute_tolerance_factor)
-        | Self::Dopri5(relative_tolerance, absolute_tolerance_factor)
-        | Self::Named(_, relative_tolerance, absolute_tolerance_factor)) = self;
-        let algebraic = AlgebraicErrors::Suppressed;
-        IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 500_000, algebraic, ..Default::default() }
+    /// The row of the table, relative tolerance, factor of absolute tolerances.
+    fn parts(self) -> (&'static str, f64, f64) {
+        match self {
+            Self::Erk(relative, absolute) => ("erk", relative, absolute),
+            Self::Ida(relative, absolute) => ("ida", relative, absolute),
+            Self::Bdf(relative, absolute) => ("cvode", relative, absolute),
+            Self::Adams(relative, absolute) => ("cvode_adams", relative, absolute),
+            Self::Dopri5(relative, absolute) => ("dopri5", relative, absolute),
+            Self::Named(name, relative, absolute) => (name, relative, absolute),
+        }
     }
 
     /// Runs a simulation with these tolerances.
@@ -51,29 +50,15 @@ impl By {
     /// # Panics
     /// It cannot start.
     pub fn run(self, mut transient: Transient, plant: &mut dyn Integrable, inputs: &dyn Inputs) -> Simulation {
-        transient.options = self.options();
-        let (mut erk, mut ida, mut bdf, mut adams) = (RungeKutta::explicit(), Ida::default(), Cvode::bdf(), Cvode::adams());
-        let mut dopri5 = DormandPrince::default();
-        let row = |name: &str| integration(name).unwrap_or_else(|| panic!("no integrator `{name}`")).make;
-        let (mut implicit, mut explicit);
-        let method = match self {
-            Self::Named(name, ..) => match row(name) {
-                Integrator::Implicit(make) => {
-                    implicit = make();
-                    Method::Dae(implicit.as_mut())
-                }
-                Integrator::Explicit(make) => {
-                    explicit = make();
-                    Method::Ode(explicit.as_mut())
-                }
-            },
-            Self::Dopri5(..) => Method::Ode(&mut dopri5),
-            Self::Erk(..) => Method::Ode(&mut erk),
-            Self::Ida(..) => Method::Dae(&mut ida),
-            Self::Bdf(..) => Method::Ode(&mut bdf),
-            Self::Adams(..) => Method::Ode(&mut adams),
+        let (name, relative_tolerance, absolute_tolerance_factor) = self.parts();
+        let algebraic = AlgebraicErrors::Suppressed;
+        transient.options =
+            IntegrationOptions { relative_tolerance, absolute_tolerance_factor, max_steps: 50_000, algebraic, ..Default::default() };
+        let run = match integration(name).unwrap_or_else(|| panic!("no integrator `{name}`")).make {
+            Integrator::Implicit(make) => transient.run(plant, inputs, Method::Dae(make().as_mut())),
+            Integrator::Explicit(make) => transient.run(plant, inputs, Method::Ode(make().as_mut())),
         };
-        transient.run(plant, inputs, method).unwrap_or_else(|error| panic!("{error}"))
+        run.unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
