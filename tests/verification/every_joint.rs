@@ -166,8 +166,7 @@ fn efforts_and_motions_are_the_columns_of_the_subspace() {
         let dots: Vec<f64> = (0..H.len()).map(|a| columns.dot(a, &F)).collect();
         agreement.all_near(&format!("{}: columns", case.name), &dots, &expected, &SHORT);
         // what a joint that leaves all motions is solved for
-        agreement
-            .holds(&format!("{}: solves for all motions", case.name), case.joint.leaves_all() == case.joint.wrench(&H, &tau).is_some());
+        agreement.holds(&format!("{}: solved where H is square", case.name), case.joint.leaves_all() == (case.joint.nv() == 6));
         if let Some(back) = case.joint.wrench(&H, &tau) {
             let wrench = |F: Wrench<f64>| [F.n.x, F.n.y, F.n.z, F.f.x, F.f.y, F.f.z];
             agreement.all_near(&format!("{}: wrench", case.name), &wrench(back).map(|x| 10.0 + x), &wrench(F).map(|x| 10.0 + x), &ROUNDING);
