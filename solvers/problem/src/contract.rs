@@ -44,7 +44,7 @@ pub fn resolution(a: f64, b: f64) -> f64 {
 
 /// `Ok` where every entry is finite, else the recoverable error that names the first row which is not.
 pub fn finite(values: &[f64]) -> Result<(), EvalError> {
-    // all are, nearly always: a count without branches is several times faster than a search
+    // all are, nearly always, and a count has no branches
     if values.iter().filter(|value| value.is_finite()).count() == values.len() {
         return Ok(());
     }

@@ -51,8 +51,9 @@ impl<'a, 'p> Whole<'a, 'p> {
         }
         self.scatter(time, states);
         self.plant.borrow_mut().solve_rates(time, &mut self.y, &self.u, &mut self.yd)?;
-        let lost = || self.states.iter().position(|&i| !self.yd[i].is_finite());
-        if let Some(k) = finite(&self.yd).err().and_then(|_| lost()) {
+        if finite(&self.yd).is_err()
+            && let Some(k) = self.states.iter().position(|&i| !self.yd[i].is_finite())
+        {
             return Err(EvalError::Recoverable { equation: self.rows[k] });
         }
         self.completed = Some(time);

@@ -25,13 +25,13 @@ mod track;
 mod trajectory;
 mod watch;
 
+pub use acting::Sample;
 pub use ending::{Cause, Moving, TransientEnding, TransientError};
 pub use inputs::{Constant, Inputs};
 pub use track::{Drifting, Driven, Pulse, Ramp, Step, Table, Track};
 pub use trajectory::{Crossing, Drift, LimitMet, NearSingular, Trajectory, Worst};
 
 use crate::{Variable, Variables};
-pub use acting::Sample;
 use acting::{Acting, Observer};
 use integrate::Integration;
 use pieces::{Pieces, met};
