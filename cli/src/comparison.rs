@@ -178,9 +178,8 @@ impl Motion<'_> {
 
 /// Largest change of the energy, as a share of its largest size, where no power goes in or out.
 fn energy_drift(history: &History) -> Result<f64, Failure> {
-    let column = |name: &str| history.column(name);
     let (Some(energy), Some(supplied), Some(dissipated)) =
-        (column(motion::ENERGY)?, column(motion::SUPPLIED)?, column(motion::DISSIPATED)?)
+        (history.column(motion::ENERGY)?, history.column(motion::SUPPLIED)?, history.column(motion::DISSIPATED)?)
     else {
         return Ok(f64::NAN);
     };

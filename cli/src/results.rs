@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// Writes a file, or says which one could not be written.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    fs::write(path, bytes).map_err(|e| Failure::Write { path: path.display().to_string(), cause: e.to_string() })
+    stream(path, |out| out.write_all(bytes))
 }
 
 /// Indices of the signals that `--show` names; asked for before anything is computed.

@@ -157,14 +157,13 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         let told = history.clone().in_axes(arguments.output.axes);
         animation::page_of_run(&scene, &history, &told, arguments.output.angles())
     });
-    let page = page.transpose()?;
     let exit = results::deliver(context, (&arguments.model, &arguments.output), history, |history| match picture {
         Some(picture) => ride::figure(history, picture),
         None => figure(history, &drawn),
     });
     context.console.complain(&ended.unwrap_or_default());
     if let (Ok(_), Some(path), Some(page)) = (&exit, &arguments.animate, page) {
-        animation::write(context, path, &page)?;
+        animation::write(context, path, &page?)?;
     }
     exit
 }

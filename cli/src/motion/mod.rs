@@ -149,17 +149,8 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     let beside = beside(request.keep.as_deref(), &plant);
     // the tape keeps what is recorded, each variable once
     transient.record.clear();
-    let mut taped: Vec<Variable> = Vec::new();
-    let mut places = |wanted: &[Variable]| -> Vec<usize> {
-        let place = |v: &Variable| {
-            taped.iter().position(|t| t == v).unwrap_or_else(|| {
-                taped.push(*v);
-                taped.len() - 1
-            })
-        };
-        wanted.iter().map(place).collect()
-    };
-    let [of_motion, told_columns, kept_columns] = [&moving, &recorded.variables, &beside].map(|wanted| places(wanted));
+    let mut taped = Vec::new();
+    let [of_motion, told_columns, kept_columns] = [&moving, &recorded.variables, &beside].map(|wanted| places(wanted, &mut taped));
     let began = Instant::now();
     let (simulation, tape, full) =
         follow(&mut transient, &mut plant, &beginning, &taped, (&backend.make, request.interrupt), &mut warnings)?;
@@ -216,6 +207,17 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         kept,
         warnings,
     })
+}
+
+/// Columns of the tape for variables, which are added where it does not have them yet.
+fn places(wanted: &[Variable], taped: &mut Vec<Variable>) -> Vec<usize> {
+    let place = |variable: &Variable| {
+        taped.iter().position(|t| t == variable).unwrap_or_else(|| {
+            taped.push(*variable);
+            taped.len() - 1
+        })
+    };
+    wanted.iter().map(place).collect()
 }
 
 /// Signals kept beside the recorded ones.
