@@ -6,7 +6,7 @@ use crate::plot::FileFormat;
 use clap::{Args, ValueEnum};
 use mbody::description::finding::{Finding, suggestion};
 use mbody::description::quantity::{Dimensioned, parse_quantity};
-use problem::Derivatives;
+use problem::{Derivatives, LinearSolver};
 use std::path::PathBuf;
 
 /// Which model, and what is changed in it.
@@ -183,6 +183,24 @@ impl From<Jacobian> for Derivatives {
         match jacobian {
             Jacobian::Exact => Self::Exact,
             Jacobian::Differences => Self::Differences,
+        }
+    }
+}
+
+/// What solves linear equations, as an option says it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Linear {
+    /// LU factors of the dense matrix
+    Direct,
+    /// GMRES: products with directional derivatives instead of a matrix; ida preconditions it by the factors of an earlier one
+    Gmres,
+}
+
+impl From<Linear> for LinearSolver {
+    fn from(linear: Linear) -> Self {
+        match linear {
+            Linear::Direct => Self::Direct,
+            Linear::Gmres => Self::Gmres,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Solver backends by name: one row each.
 
-use problem::{AlgebraicMethod, DaeMethod, OdeMethod};
+use problem::{AlgebraicMethod, DaeMethod, LinearSolver, OdeMethod};
 
 /// A backend for algebraic systems.
 #[derive(Clone, Copy)]
@@ -34,6 +34,11 @@ pub const ALGEBRAIC: &[AlgebraicBackend] = &[
         name: "kinsol_newton",
         about: "SUNDIALS KINSOL: full Newton steps",
         make: || Box::new(sundials::Kinsol::new(sundials::Strategy::FullStep)),
+    },
+    AlgebraicBackend {
+        name: "kinsol_gmres",
+        about: "SUNDIALS KINSOL: Newton–Krylov with line search, products with the exact derivative instead of matrices",
+        make: || Box::new(sundials::Kinsol::new(sundials::Strategy::Krylov)),
     },
     AlgebraicBackend {
         name: "kinsol_picard",
@@ -70,8 +75,9 @@ pub struct IntegrationBackend {
     pub about: &'static str,
     /// Makes one.
     pub make: Integrator,
-    /// Whether it asks for matrices, which may be exact or difference quotients.
-    pub matrices: bool,
+    /// What may solve the linear equations of its steps, the first where nobody says otherwise; none where it has no such equations. Their
+    /// matrices or products may be exact or difference quotients.
+    pub linear_solvers: &'static [LinearSolver],
     /// Who decides how long steps are.
     pub steps: Steps,
 }
@@ -85,90 +91,97 @@ pub enum Steps {
     Fixed,
 }
 
+/// For methods without linear equations.
+const NONE: &[LinearSolver] = &[];
+/// For methods that factorize matrices.
+const DIRECT: &[LinearSolver] = &[LinearSolver::Direct];
+/// For methods that can do without.
+const EITHER: &[LinearSolver] = &[LinearSolver::Direct, LinearSolver::Gmres];
+
 /// The integrators; the first is the default.
 pub const INTEGRATION: &[IntegrationBackend] = &[
     IntegrationBackend {
         name: "ida",
         about: "SUNDIALS IDA: BDF of variable order, implicit form",
         make: Integrator::Implicit(|| Box::new(sundials::Ida::default())),
-        matrices: true,
+        linear_solvers: EITHER,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "erk",
         about: "SUNDIALS ARKODE: explicit Runge–Kutta of order 8, explicit form with projection",
         make: Integrator::Explicit(|| Box::new(sundials::RungeKutta::explicit())),
-        matrices: false,
+        linear_solvers: NONE,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "dirk",
         about: "SUNDIALS ARKODE: diagonally implicit Runge–Kutta of order 5, explicit form with projection",
         make: Integrator::Explicit(|| Box::new(sundials::RungeKutta::implicit())),
-        matrices: true,
+        linear_solvers: EITHER,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "cvode",
         about: "SUNDIALS CVODE: BDF of variable order, explicit form with projection",
         make: Integrator::Explicit(|| Box::new(sundials::Cvode::bdf())),
-        matrices: true,
+        linear_solvers: EITHER,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "cvode_adams",
         about: "SUNDIALS CVODE: Adams formulas of variable order, explicit form",
         make: Integrator::Explicit(|| Box::new(sundials::Cvode::adams())),
-        matrices: false,
+        linear_solvers: NONE,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "generalized_alpha",
         about: "generalized-α of this project, order 2, a fifth of the fastest oscillations damped away per step, implicit form",
         make: Integrator::Implicit(|| Box::new(native::GeneralizedAlpha::new(0.8))),
-        matrices: true,
+        linear_solvers: DIRECT,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "dopri5",
         about: "Dormand and Prince's pair of orders 5 and 4 of this project, explicit form with projection",
         make: Integrator::Explicit(|| Box::<native::DormandPrince>::default()),
-        matrices: false,
+        linear_solvers: NONE,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "ros2",
         about: "linearly implicit method of order 2 of this project with steps of one length (`--step`), for simulators",
         make: Integrator::Explicit(|| Box::new(native::Rosenbrock::second_order())),
-        matrices: true,
+        linear_solvers: DIRECT,
         steps: Steps::Fixed,
     },
     IntegrationBackend {
         name: "linear_euler",
         about: "linearly implicit Euler method of this project with steps of one length (`--step`), for simulators",
         make: Integrator::Explicit(|| Box::new(native::Rosenbrock::euler())),
-        matrices: true,
+        linear_solvers: DIRECT,
         steps: Steps::Fixed,
     },
     IntegrationBackend {
         name: "diffsol_bdf",
         about: "diffsol: BDF of variable order in Rust, explicit form",
         make: Integrator::Explicit(|| Box::new(native::Diffsol::bdf())),
-        matrices: true,
+        linear_solvers: DIRECT,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "diffsol_esdirk34",
         about: "diffsol: diagonally implicit Runge–Kutta of order 4, explicit form",
         make: Integrator::Explicit(|| Box::new(native::Diffsol::esdirk34())),
-        matrices: true,
+        linear_solvers: DIRECT,
         steps: Steps::Variable,
     },
     IntegrationBackend {
         name: "diffsol_tsit45",
         about: "diffsol: explicit Runge–Kutta pair of Tsitouras of order 5, explicit form",
         make: Integrator::Explicit(|| Box::new(native::Diffsol::tsit45())),
-        matrices: false,
+        linear_solvers: NONE,
         steps: Steps::Variable,
     },
 ];

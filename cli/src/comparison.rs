@@ -6,7 +6,7 @@ use crate::output::{History, Progress};
 use crate::{Failure, maneuver, motion, plan, steady};
 use mbody::dynamics::System;
 use motorcycle::maneuver::Maneuver;
-use problem::Derivatives;
+use problem::{Derivatives, Effort, LinearSolver};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -22,6 +22,8 @@ pub struct Contender {
     pub formulation: Option<String>,
     /// Where matrices come from.
     pub derivatives: Derivatives,
+    /// What solves linear equations.
+    pub linear_solver: LinearSolver,
 }
 
 /// How closely, and how often.
@@ -71,6 +73,7 @@ impl Motion<'_> {
             backend: contender.backend.name.to_owned(),
             formulation: contender.formulation.clone(),
             derivatives: contender.derivatives,
+            linear_solver: contender.linear_solver,
             ..self.request.clone()
         };
         match care {
@@ -97,7 +100,8 @@ impl Motion<'_> {
         let mut reference: Option<(History, String)> = None;
         for (backend, tolerance) in REFERENCES {
             let Some(row) = backend::integration(backend) else { continue };
-            let contender = Contender { backend: row, formulation: None, derivatives: Derivatives::Exact };
+            let contender =
+                Contender { backend: row, formulation: None, derivatives: Derivatives::Exact, linear_solver: LinearSolver::Direct };
             let found = self.run(&contender, Care::Tolerance(tolerance))?;
             let reached = found.outcome.because.is_none();
             let better = reference.as_ref().is_none_or(|(kept, _)| found.recording.len() > kept.recording.len());
@@ -135,10 +139,12 @@ impl Motion<'_> {
         }
         let (least, most) = walls.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(*w), b.max(*w)));
         let s = &last.outcome.statistics;
+        let implicit = !contender.backend.linear_solvers.is_empty();
         Ok(Row {
             backend: contender.backend.name.to_owned(),
             form: last.outcome.formulation.to_owned(),
-            jacobian: if contender.backend.matrices { contender.derivatives.name() } else { NONE },
+            jacobian: if implicit { contender.derivatives.name() } else { NONE },
+            linear_solver: if implicit { contender.linear_solver.name() } else { NONE },
             relative_tolerance: care.told().0,
             step: care.told().1,
             ending: last.outcome.ending.clone(),
@@ -150,6 +156,7 @@ impl Motion<'_> {
             rejected: s.rejected,
             residuals: s.residuals,
             jacobians: s.jacobians,
+            products: s.products,
             solves: s.iterations,
             error: self.difference(&last, reference)?,
             energy_drift: energy_drift(&last)?,
@@ -222,10 +229,13 @@ pub fn sweeps(
             });
             off.fold(0.0, f64::max)
         });
+        let mut effort = Effort::default();
+        found.points.iter().for_each(|p| effort += p.effort);
         rows.push(Row {
             backend: name.clone(),
             form: "algebraic".to_owned(),
             jacobian: NONE,
+            linear_solver: NONE,
             relative_tolerance: f64::NAN,
             step: f64::NAN,
             ending: if missed < found.points.len() { "reached" } else { "not_converged" }.to_owned(),
@@ -235,9 +245,10 @@ pub fn sweeps(
             real_time_factor: f64::NAN,
             steps: found.points.len(),
             rejected: missed,
-            residuals: 0,
-            jacobians: 0,
-            solves: found.points.iter().map(|p| p.iterations).sum(),
+            residuals: effort.residuals,
+            jacobians: effort.jacobians,
+            products: effort.products,
+            solves: effort.iterations,
             error,
             energy_drift: f64::NAN,
             constraint_drift: f64::NAN,

@@ -8,7 +8,7 @@ use crate::plan::{Drive, Plan, Prescribed, Request, Turn};
 use crate::{Failure, backend, trust};
 use analyses::trim::{Trim, TrimError, TrimPoint, TrimProblem, Walk};
 use mbody::dynamics::{System, TreePlant};
-use problem::{AlgebraicMethod, Ending, Plant, Signal};
+use problem::{AlgebraicMethod, Effort, Ending, Plant, Signal};
 use rayon::prelude::*;
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -48,7 +48,7 @@ fn to_point(given: Vec<f64>, p: TrimPoint) -> Point {
         true => (p.y.iter().chain(&p.u).chain(&p.outputs).copied().collect(), p.yd),
         false => (Vec::new(), Vec::new()),
     };
-    Point { given, values, rates, ending: p.ending, iterations: p.iterations, residual: p.residual }
+    Point { given, values, rates, ending: p.ending, effort: p.effort, residual: p.residual }
 }
 
 /// Runs a request. `what` names the job for the progress bar.
@@ -222,7 +222,7 @@ impl Job<'_> {
                 line.points.push(Point {
                     given,
                     ending: ending.clone(),
-                    iterations: 0,
+                    effort: Effort::default(),
                     residual: f64::NAN,
                     values: Vec::new(),
                     rates: Vec::new(),
@@ -385,7 +385,7 @@ fn walk(plant: &mut TreePlant, plan: &Plan, backend: &AlgebraicBackend, goals: &
         return walk.reach(&mut problem, method.as_mut(), (&slow, &x), &target);
     }
     let mut point = walk.reach(&mut problem, method.as_mut(), (&easy, &x), &target)?;
-    point.iterations += outcome.iterations;
+    point.effort += outcome.effort;
     Ok(point)
 }
 

@@ -4,7 +4,7 @@ use crate::vehicle::{Vehicle, running};
 use fastbike::output::History;
 use fastbike::{Failure, maneuver, motion};
 use motorcycle::maneuver::Maneuver;
-use problem::Derivatives;
+use problem::{Derivatives, LinearSolver};
 
 /// A ride that was computed.
 #[derive(Debug)]
@@ -60,6 +60,7 @@ impl Rode {
             backend: care.backend.to_owned(),
             formulation: None,
             derivatives: Derivatives::Exact,
+            linear_solver: LinearSolver::Direct,
             fixed_step: motion::USUAL_STEP,
             steady: Some(running(&[maneuver.course.speed.first()])),
             given: Vec::new(),

@@ -146,7 +146,7 @@ fn sweep(method: &mut dyn AlgebraicMethod) -> (Vec<String>, usize) {
             x[heave] *= x[roll].cos() / before.cos();
             leaned_before = leaned;
             let outcome = walk.solve(&mut problem, method, &[speed, acceleration / speed], &mut x);
-            iterations += outcome.iterations;
+            iterations += outcome.effort.iterations;
             if !outcome.converged() {
                 failures.push(format!("{speed:.2} m/s, {acceleration:.2} m/s²: {:?}", outcome.ending));
             }

@@ -6,7 +6,7 @@ use fastbike::backend::{ALGEBRAIC, INTEGRATION, IntegrationBackend, Integrator, 
 use fastbike::comparison::{Contender, Motion, Settings, sweeps};
 use fastbike::output::comparison::Row as Compared;
 use fastbike::{maneuver, motion};
-use problem::Derivatives;
+use problem::{Derivatives, LinearSolver};
 use validation::course::system;
 use validation::evidence::Row;
 use validation::vehicle::running;
@@ -24,6 +24,11 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "integrators that ask for matrices follow the same motion with exact ones and with difference quotients, the explicit form's included",
         "identity",
         "relative tolerance 1e-6: both errors below the same bound"
+    ),
+    every_linear_solver_leads_to_the_same_motion => (
+        "integrators that know a linear solver without matrices follow the same motions by it, in every form, with exact products and with difference quotients",
+        "the pair of order 8 at a tolerance of 1e-11",
+        "relative tolerance 1e-6: errors below the bounds of matrices"
     ),
     steady_states_by_every_solver_agree => (
         "every solver of algebraic systems finds the same steady turns of moto11",
@@ -63,6 +68,7 @@ impl Case {
             backend: String::new(),
             formulation: None,
             derivatives: Derivatives::Exact,
+            linear_solver: LinearSolver::Direct,
             fixed_step: self.step,
             steady: speed.map(|speed| running(&[speed])),
             given: self.given.iter().map(|given| (*given).to_owned()).collect(),
@@ -95,12 +101,15 @@ impl Case {
 
 fn told(row: &Compared) -> String {
     let because = row.because.as_deref().unwrap_or("reached the end");
-    format!("{} on {} with {} matrices: error {:.1e}, {because}", row.backend, row.form, row.jacobian, row.error)
+    format!(
+        "{} on {}, {} derivatives, {} linear solver: error {:.1e}, {because}",
+        row.backend, row.form, row.jacobian, row.linear_solver, row.error
+    )
 }
 
 /// A backend in every form that it accepts.
-fn forms(backend: &'static IntegrationBackend, derivatives: Derivatives) -> Vec<Contender> {
-    let of = |formulation| Contender { backend, formulation, derivatives };
+fn forms(backend: &'static IntegrationBackend, derivatives: Derivatives, linear_solver: LinearSolver) -> Vec<Contender> {
+    let of = |formulation| Contender { backend, formulation, derivatives, linear_solver };
     match backend.make {
         Integrator::Implicit(_) => motion::FORMULATIONS.iter().map(|f| of(Some(f.name().to_owned()))).collect(),
         Integrator::Explicit(_) => vec![of(None)],
@@ -109,14 +118,24 @@ fn forms(backend: &'static IntegrationBackend, derivatives: Derivatives) -> Vec<
 
 #[test]
 fn motions_by_every_integrator_agree() {
-    let all: Vec<Contender> = INTEGRATION.iter().flat_map(|backend| forms(backend, Derivatives::Exact)).collect();
+    let all: Vec<Contender> = INTEGRATION.iter().flat_map(|backend| forms(backend, Derivatives::Exact, LinearSolver::Direct)).collect();
+    CASES.iter().for_each(|case| case.hold(&all));
+}
+
+#[test]
+fn every_linear_solver_leads_to_the_same_motion() {
+    let solvers = |backend: &'static IntegrationBackend| backend.linear_solvers.iter().skip(1).map(move |linear| (backend, *linear));
+    let ways = [Derivatives::Exact, Derivatives::Differences];
+    let of = |(backend, linear)| ways.iter().flat_map(move |&derivatives| forms(backend, derivatives, linear));
+    let all: Vec<Contender> = INTEGRATION.iter().flat_map(solvers).flat_map(of).collect();
+    assert!(!all.is_empty());
     CASES.iter().for_each(|case| case.hold(&all));
 }
 
 #[test]
 fn exact_matrices_and_differences_lead_to_the_same_motion() {
-    let asking = INTEGRATION.iter().filter(|backend| backend.matrices && backend.steps == Steps::Variable);
-    let all: Vec<Contender> = asking.flat_map(|backend| forms(backend, Derivatives::Differences)).collect();
+    let asking = INTEGRATION.iter().filter(|backend| !backend.linear_solvers.is_empty() && backend.steps == Steps::Variable);
+    let all: Vec<Contender> = asking.flat_map(|backend| forms(backend, Derivatives::Differences, LinearSolver::Direct)).collect();
     CASES.iter().filter(|case| case.maneuver.is_none()).for_each(|case| case.hold(&all));
 }
 

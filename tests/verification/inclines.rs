@@ -147,6 +147,7 @@ fn inclined_states_stay() {
                 backend: "ida".to_owned(),
                 formulation: None,
                 derivatives: problem::Derivatives::Exact,
+                linear_solver: problem::LinearSolver::Direct,
                 fixed_step: motion::USUAL_STEP,
                 steady: Some(steady),
                 given: Vec::new(),

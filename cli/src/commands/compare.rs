@@ -2,7 +2,7 @@
 
 use super::run::times;
 use super::{Kind, read};
-use crate::arguments::{Jacobian, ModelArguments, OutputArguments, argument, sweep, unknown_name};
+use crate::arguments::{Jacobian, Linear, ModelArguments, OutputArguments, argument, sweep, unknown_name};
 use crate::comparison::{Contender, Motion, Settings, sweeps};
 use crate::output::comparison::Comparison;
 use crate::plan::SteadyArguments;
@@ -11,7 +11,7 @@ use crate::{Context, Exit, Failure, backend, maneuver, model, motion, results};
 use clap::{ArgMatches, Args, Command};
 use mbody::description::finding::Finding;
 use mbody::description::quantity::dimension::{Number, Time};
-use problem::Derivatives;
+use problem::{Derivatives, LinearSolver};
 
 /// Row of the table of commands.
 pub const KIND: Kind = Kind { name: "compare", command, run };
@@ -43,6 +43,9 @@ struct Arguments {
     /// Matrices of implicit methods: exact derivatives, differences of residuals
     #[arg(long, value_delimiter = ',', value_enum, default_value = "exact")]
     jacobian: Vec<Jacobian>,
+    /// Linear solvers of implicit methods, where they know several
+    #[arg(long, value_delimiter = ',', value_enum, default_value = "direct")]
+    linear_solver: Vec<Linear>,
     /// Lengths of steps, for methods whose steps are all alike
     #[arg(long, value_name = "TIME,…", default_value = "2ms,1ms,0.5ms")]
     steps: String,
@@ -95,6 +98,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
                 backend: String::new(),
                 formulation: None,
                 derivatives: Derivatives::Exact,
+                linear_solver: LinearSolver::Direct,
                 fixed_step: motion::USUAL_STEP,
                 steady: arguments.steady.moving().then(|| arguments.steady.request(&[], &[])).transpose()?,
                 given: arguments.given.clone(),
@@ -105,7 +109,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
                 keep: None,
             };
             let names = chosen(&arguments.backends, backend::INTEGRATION.iter().map(|b| b.name))?;
-            let contenders = contenders(&names, &arguments.formulations, &arguments.jacobian)?;
+            let contenders = contenders(&names, &arguments.formulations, &arguments.jacobian, &arguments.linear_solver)?;
             let tolerances = sweep::<Number>("rtol", &arguments.rtol)?;
             if let Some(bad) = tolerances.iter().find(|t| !(1e-13..=0.1).contains(*t)) {
                 let why = format!("a relative tolerance of `{bad}` is out of range: it must be from 1e-13 to 0.1");
@@ -135,8 +139,14 @@ fn chosen(named: &[String], known: impl Iterator<Item = &'static str>) -> Result
     }
 }
 
-/// Implicit backends in every formulation, those with matrices by every way to them, all others once.
-fn contenders(backends: &[String], formulations: &[String], jacobians: &[Jacobian]) -> Result<Vec<Contender>, Failure> {
+/// Implicit backends in every formulation, those with linear equations by every way to their matrices and by every solver that they know, all
+/// others once.
+fn contenders(
+    backends: &[String],
+    formulations: &[String],
+    jacobians: &[Jacobian],
+    linear_solvers: &[Linear],
+) -> Result<Vec<Contender>, Failure> {
     let known = || motion::FORMULATIONS.iter().map(|f| f.name());
     if let Some(unknown) = formulations.iter().find(|f| !known().any(|k| k == f.as_str())) {
         return Err(unknown_name("formulations", unknown, ("formulation", unknown), known()).into());
@@ -146,10 +156,23 @@ fn contenders(backends: &[String], formulations: &[String], jacobians: &[Jacobia
         let Some(row) = backend::integration(name) else { continue };
         let implicit = matches!(row.make, backend::Integrator::Implicit(_)) && !formulations.is_empty();
         let forms = if implicit { formulations.iter().cloned().map(Some).collect() } else { vec![None] };
-        let ways = if row.matrices { jacobians } else { &[Jacobian::Exact] };
+        let ways = if row.linear_solvers.is_empty() { &[Jacobian::Exact] } else { jacobians };
+        let wanted = linear_solvers.iter().map(|&linear| LinearSolver::from(linear));
+        let mut solvers: Vec<LinearSolver> = wanted.filter(|linear| row.linear_solvers.contains(linear)).collect();
+        // a method that knows none of them takes part all the same
+        if solvers.is_empty() {
+            solvers.push(LinearSolver::Direct);
+        }
         for formulation in forms {
-            let of = |&jacobian: &Jacobian| Contender { backend: row, formulation: formulation.clone(), derivatives: jacobian.into() };
-            found.extend(ways.iter().map(of));
+            for &derivatives in ways {
+                let of = |&linear_solver: &LinearSolver| Contender {
+                    backend: row,
+                    formulation: formulation.clone(),
+                    derivatives: derivatives.into(),
+                    linear_solver,
+                };
+                found.extend(solvers.iter().map(of));
+            }
         }
     }
     Ok(found)
@@ -165,7 +188,8 @@ fn figure(comparison: &Comparison) -> Result<Figure, Failure> {
         let others = || comparison.rows.iter().filter(|r| r.backend == row.backend);
         let form = others().any(|r| r.form != row.form).then_some(row.form.as_str());
         let jacobian = others().any(|r| r.jacobian != row.jacobian).then_some(row.jacobian);
-        let name = [Some(row.backend.as_str()), form, jacobian].into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let linear = others().any(|r| r.linear_solver != row.linear_solver).then_some(row.linear_solver);
+        let name = [Some(row.backend.as_str()), form, jacobian, linear].into_iter().flatten().collect::<Vec<_>>().join(", ");
         let point = (row.error, 1e3 * row.wall);
         match curves.iter_mut().find(|c| c.name == name) {
             Some(curve) => curve.points.push(point),
@@ -189,8 +213,12 @@ mod tests {
     fn contenders_are_backends_in_forms() {
         let names = ["ida".to_owned(), "erk".to_owned()];
         let forms = ["ggl".to_owned(), "velocity".to_owned()];
-        let found = contenders(&names, &forms, &[Jacobian::Exact, Jacobian::Differences]).map(|c| c.len()).ok();
-        assert_eq!(found, Some(5));
-        assert!(contenders(&names, &["ggi".to_owned()], &[Jacobian::Exact]).is_err());
+        let found = |names: &[String], linear: &[Linear]| {
+            contenders(names, &forms, &[Jacobian::Exact, Jacobian::Differences], linear).map(|c| c.len()).ok()
+        };
+        assert_eq!(found(&names, &[Linear::Direct]), Some(5));
+        assert_eq!(found(&names, &[Linear::Direct, Linear::Gmres]), Some(9));
+        assert_eq!(found(&["ros2".to_owned(), "erk".to_owned()], &[Linear::Gmres]), Some(3));
+        assert!(contenders(&names, &["ggi".to_owned()], &[Jacobian::Exact], &[Linear::Direct]).is_err());
     }
 }

@@ -14,7 +14,7 @@ use mbody::description::quantity::Dimensioned;
 use mbody::description::quantity::dimension::{Acceleration, Length, Speed};
 use mbody::dynamics::System;
 use motorcycle::handling::indices::{curvature, koch, lane_change_roll};
-use problem::{Derivatives, Signal};
+use problem::{Derivatives, LinearSolver, Signal};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -165,6 +165,7 @@ fn ride(system: &Arc<System>, text: &str) -> Result<History, Failure> {
         backend: "ida".to_owned(),
         formulation: None,
         derivatives: Derivatives::Exact,
+        linear_solver: LinearSolver::Direct,
         fixed_step: motion::USUAL_STEP,
         steady: Some(Request { speed: Some(Prescribed { name: "speed", unit: "m/s", values: vec![speed] }), ..Request::default() }),
         given: Vec::new(),

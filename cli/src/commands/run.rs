@@ -2,7 +2,7 @@
 
 use super::{Kind, read};
 use crate::animation::{self, Scene};
-use crate::arguments::{Jacobian, ModelArguments, OutputArguments, argument};
+use crate::arguments::{Jacobian, Linear, ModelArguments, OutputArguments, argument};
 use crate::figures::ride::{self, Picture};
 use crate::incline::Incline;
 use crate::output::{Angles, History, Results, unreadable};
@@ -65,6 +65,9 @@ struct Arguments {
     /// Matrices of implicit methods: exact derivatives, or differences of residuals
     #[arg(long, value_enum, default_value_t = Jacobian::Exact)]
     jacobian: Jacobian,
+    /// What solves the linear equations of ida, cvode and dirk; the other implicit solvers factorize matrices
+    #[arg(long, value_enum, default_value_t = Linear::Direct)]
+    linear_solver: Linear,
     /// Length of the steps of ros2 and linear_euler
     #[arg(long, value_name = "TIME", default_value = "1ms")]
     step: String,
@@ -135,6 +138,7 @@ fn run(matches: &ArgMatches, context: &Context) -> Result<Exit, Failure> {
         backend: arguments.backend,
         formulation: arguments.formulation,
         derivatives: arguments.jacobian.into(),
+        linear_solver: arguments.linear_solver.into(),
         fixed_step: positive::<Time>("step", &arguments.step)?,
         steady,
         given: arguments.given,

@@ -19,7 +19,7 @@ use analyses::transient::{Cause, Method, Sample, Simulation, Start, Transient, T
 use analyses::{ClosedLoop, Variable, Variables};
 use mbody::description::finding::Finding;
 use mbody::dynamics::{Formulation, System, TreePlant};
-use problem::{Dae, Derivatives, Flow, IntegrationOptions, Limit, Off, Plant, Side, Signal, UnknownKind};
+use problem::{Dae, Derivatives, Flow, IntegrationOptions, Limit, LinearSolver, Off, Plant, Side, Signal, UnknownKind};
 use start::Beginning;
 use std::io;
 use std::path::PathBuf;
@@ -67,6 +67,8 @@ pub struct Request {
     pub formulation: Option<String>,
     /// Where matrices come from.
     pub derivatives: Derivatives,
+    /// What solves the linear equations of a step, where the method knows several.
+    pub linear_solver: LinearSolver,
     /// Length of the steps of methods whose steps are all alike, s.
     pub fixed_step: f64,
     /// The steady state to start from, where one is wanted.
@@ -110,6 +112,10 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
     if explicit && request.formulation.is_some() {
         warnings.push(format!("`{}` takes the explicit form; `--formulation` changes nothing", backend.name));
     }
+    if request.linear_solver != LinearSolver::Direct && !backend.linear_solvers.contains(&request.linear_solver) {
+        let why = if backend.linear_solvers.is_empty() { "solves no linear equations" } else { "factorizes its matrices" };
+        warnings.push(format!("`{}` {why}; `--linear-solver` changes nothing", backend.name));
+    }
     // all levels of the constraints stand in the rows of GGL, so the explicit form is judged by them
     let tree = TreePlant::in_formulation(system.clone(), if explicit { Formulation::Ggl } else { formulation });
     let Ride { controllers, inputs, longest_step: max_step, end, ends, warnings: of_ride } = ride.unwrap_or_default();
@@ -132,6 +138,7 @@ pub fn run(request: &Request, system: &Arc<System>, model: &str, ride: Option<Ri
         max_step,
         fixed_step: request.fixed_step,
         derivatives: request.derivatives,
+        linear_solver: request.linear_solver,
         max_steps: most_steps(&transient.times),
         ..IntegrationOptions::default()
     };

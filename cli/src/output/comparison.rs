@@ -19,6 +19,8 @@ pub struct Row {
     pub form: String,
     /// Where its matrices came from; [`NONE`] where there is nothing to choose.
     pub jacobian: &'static str,
+    /// What solved its linear equations; [`NONE`] where there are none.
+    pub linear_solver: &'static str,
     /// Relative tolerance; NaN where the method has none to choose.
     pub relative_tolerance: f64,
     /// Length of all steps, s; NaN where the method chooses it.
@@ -41,6 +43,8 @@ pub struct Row {
     pub residuals: usize,
     /// Jacobian evaluations.
     pub jacobians: usize,
+    /// Products of Jacobians with vectors, where no matrix was formed.
+    pub products: usize,
     /// Linear solves.
     pub solves: usize,
     /// Largest difference to the reference, in units of nominal values; NaN where there is none to compare with.
@@ -102,6 +106,7 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
         "backend",
         "form",
         "Jacobian",
+        "linear solver",
         "rtol",
         "step ms",
         "wall ms",
@@ -111,12 +116,13 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
         rejected,
         "residuals",
         "Jacobians",
+        "products",
         "solves",
         "error",
         "energy",
         "constraints",
     ];
-    let rows: Vec<[String; 16]> = comparison
+    let rows: Vec<[String; 18]> = comparison
         .rows
         .iter()
         .map(|r| {
@@ -124,6 +130,7 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
                 r.backend.clone(),
                 r.form.clone(),
                 r.jacobian.to_owned(),
+                r.linear_solver.to_owned(),
                 cell(r.relative_tolerance, 0),
                 if r.step.is_finite() { number(1e3 * r.step) } else { NONE.to_owned() },
                 number(1e3 * r.wall),
@@ -133,6 +140,7 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
                 r.rejected.to_string(),
                 r.residuals.to_string(),
                 r.jacobians.to_string(),
+                if r.products > 0 { r.products.to_string() } else { NONE.to_owned() },
                 r.solves.to_string(),
                 cell(r.error, 1),
                 cell(r.energy_drift, 1),
@@ -145,7 +153,7 @@ pub(super) fn write_table(comparison: &Comparison, options: &Options, out: &mut 
     let width = |c: usize| rows.iter().map(|r| r[c].chars().count()).chain([titles[c].chars().count()]).max().unwrap_or(0);
     let line = |cells: &dyn Fn(usize) -> String| {
         let texts = kept.iter().map(|&c| match c {
-            0..=2 => format!("{:<width$}", cells(c), width = width(c)),
+            0..=3 => format!("{:<width$}", cells(c), width = width(c)),
             _ => format!("{:>width$}", cells(c), width = width(c)),
         });
         texts.collect::<Vec<_>>().join("  ")
@@ -168,9 +176,9 @@ pub(super) fn write_json(comparison: &Comparison, _: &Options, out: &mut dyn io:
         .iter()
         .map(|r| {
             json!({
-                "backend": r.backend, "form": r.form, "jacobian": r.jacobian, "rtol": r.relative_tolerance, "step_s": r.step, "ending": r.ending, "because": r.because,
+                "backend": r.backend, "form": r.form, "jacobian": r.jacobian, "linear_solver": r.linear_solver, "rtol": r.relative_tolerance, "step_s": r.step, "ending": r.ending, "because": r.because,
                 "wall_s": r.wall, "spread": r.spread, "real_time_factor": r.real_time_factor, "steps": r.steps, "rejected": r.rejected,
-                "residuals": r.residuals, "jacobians": r.jacobians, "linear_solves": r.solves, "error": r.error,
+                "residuals": r.residuals, "jacobians": r.jacobians, "products": r.products, "linear_solves": r.solves, "error": r.error,
                 "energy_drift": r.energy_drift, "constraint_drift": r.constraint_drift,
             })
         })
@@ -190,6 +198,7 @@ pub(super) fn write_csv(comparison: &Comparison, _: &Options, out: &mut dyn io::
         "backend",
         "form",
         "jacobian",
+        "linear_solver",
         "rtol",
         "step_s",
         "ending",
@@ -200,6 +209,7 @@ pub(super) fn write_csv(comparison: &Comparison, _: &Options, out: &mut dyn io::
         "rejected",
         "residuals",
         "jacobians",
+        "products",
         "linear_solves",
         "error",
         "energy_drift",
@@ -207,9 +217,12 @@ pub(super) fn write_csv(comparison: &Comparison, _: &Options, out: &mut dyn io::
     ])?;
     for r in &comparison.rows {
         let care = [r.relative_tolerance, r.step].map(csv::cell);
-        let words = [r.backend.clone(), r.form.clone(), r.jacobian.to_owned()].into_iter().chain(care).chain([r.ending.clone()]);
+        let words = [r.backend.clone(), r.form.clone(), r.jacobian.to_owned(), r.linear_solver.to_owned()]
+            .into_iter()
+            .chain(care)
+            .chain([r.ending.clone()]);
         let numbers = [r.wall, r.spread, r.real_time_factor].map(csv::cell);
-        let counts = [r.steps, r.rejected, r.residuals, r.jacobians, r.solves].map(|n| n.to_string());
+        let counts = [r.steps, r.rejected, r.residuals, r.jacobians, r.products, r.solves].map(|n| n.to_string());
         let errors = [r.error, r.energy_drift, r.constraint_drift].map(csv::cell);
         table.write_record(words.chain(numbers).chain(counts).chain(errors))?;
     }

@@ -39,7 +39,7 @@ fn write(report: &Report, _: &Options, out: &mut dyn io::Write) -> io::Result<()
     let variants = report.variants.iter().flat_map(|v| v.points.iter().map(move |p| (v.name.as_str(), p)));
     for (name, point) in report.points.iter().map(|p| ("base", p)).chain(variants) {
         let given = (0..report.given.len()).map(|k| cell(point.given.get(k).copied().unwrap_or(f64::NAN)));
-        let outcome = [point.ending.name().to_owned(), point.iterations.to_string(), cell(point.residual)];
+        let outcome = [point.ending.name().to_owned(), point.effort.iterations.to_string(), cell(point.residual)];
         let values = (0..report.signals.len()).map(|k| cell(point.value(k)));
         table.write_record(tag(name).chain(given).chain(outcome).chain(values))?;
     }

@@ -81,7 +81,7 @@ fn point(report: &Report, point: &Point) -> Value {
             object.insert("because".to_owned(), json!(because));
         }
     }
-    object.insert("iterations".to_owned(), point.iterations.into());
+    object.insert("iterations".to_owned(), point.effort.iterations.into());
     object.insert("residual".to_owned(), json!(point.residual));
     object.insert("signals".to_owned(), signals.into());
     object.into()

@@ -2,7 +2,7 @@
 
 use super::axes::Axes;
 use super::{Kind, Results, Writer, comfort, handling, linear, modes, responses, rider};
-use problem::{Ending, Signal};
+use problem::{Effort, Ending, Signal};
 use serde_json::json;
 use std::borrow::Cow;
 
@@ -29,8 +29,8 @@ pub struct Point {
     pub given: Vec<f64>,
     /// How the analysis ended here.
     pub ending: Ending,
-    /// Iterations taken.
-    pub iterations: usize,
+    /// What the method did.
+    pub effort: Effort,
     /// Largest scaled residual at the end.
     pub residual: f64,
     /// One value per signal of the report; empty where nothing was computed.
@@ -166,7 +166,7 @@ impl Results for Report {
     }
 
     fn statistics(&self) -> serde_json::Value {
-        let iterations: usize = self.points.iter().map(|p| p.iterations).sum();
+        let iterations: usize = self.points.iter().map(|p| p.effort.iterations).sum();
         json!({ "points": self.points.len(), "iterations": iterations })
     }
 

@@ -1,10 +1,14 @@
 //! Reports for the tests of the writers.
 
 use super::report::{Given, Point, Report};
-use problem::{Ending, Signal};
+use problem::{Effort, Ending, Signal};
 
 /// A number that needs all its digits.
 pub(super) const YAW_RATE: f64 = -0.223_144_567_891_234_5;
+
+fn effort(iterations: usize) -> Effort {
+    Effort { iterations, ..Effort::default() }
+}
 
 fn given() -> Vec<Given> {
     vec![Given::new("speed", "m/s"), Given::new("lean", "rad")]
@@ -22,7 +26,7 @@ pub(super) fn corner() -> Report {
         Signal::new("curvature", "1/m", "curvature of the path, positive to the left"),
     ];
     let values = vec![0.6, YAW_RATE, -7.125, 1623.4567, 3e-17, 0.71, -0.011_157];
-    let point = Point { given: vec![20.0, 0.6], ending: Ending::Reached, iterations: 4, residual: 1e-12, values, rates: vec![] };
+    let point = Point { given: vec![20.0, 0.6], ending: Ending::Reached, effort: effort(4), residual: 1e-12, values, rates: vec![] };
     Report { points: vec![point], ..Report::new("trim", "ref11", given(), signals) }
 }
 
@@ -38,7 +42,7 @@ pub(super) fn sweep() -> Report {
     let point = |speed, ending, iterations, residual, values| Point {
         given: vec![speed, 0.6],
         ending,
-        iterations,
+        effort: effort(iterations),
         residual,
         values,
         rates: vec![],

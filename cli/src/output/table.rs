@@ -91,7 +91,7 @@ pub(super) fn describe(report: &Report, point: &Point, options: &Options) -> Str
     let palette = options.palette;
     match &point.ending {
         Ending::Reached => {
-            let text = format!("reached in {} iterations, residual {:.1e}", point.iterations, point.residual);
+            let text = format!("reached in {} iterations, residual {:.1e}", point.effort.iterations, point.residual);
             styled(palette.good, &text)
         }
         Ending::Limit { name, signal, value, threshold } => {

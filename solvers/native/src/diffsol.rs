@@ -214,6 +214,7 @@ impl Following<'_, '_> {
             convergence_failures: counted.number_of_nonlinear_solver_fails,
             residuals: shared.residuals,
             jacobians: shared.jacobians,
+            products: 0,
             iterations: counted.number_of_nonlinear_solver_iterations,
         }
     }

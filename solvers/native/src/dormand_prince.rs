@@ -125,6 +125,7 @@ impl OdeMethod for DormandPrince {
             convergence_failures: run.cuts,
             residuals: run.residuals,
             jacobians: 0,
+            products: 0,
             iterations: 0,
         };
         (self.work.rates, self.work.roots) = (rates, roots);

@@ -174,6 +174,7 @@ impl DaeMethod for GeneralizedAlpha {
             convergence_failures: failures,
             residuals,
             jacobians,
+            products: 0,
             iterations,
         }
     }

@@ -16,7 +16,7 @@
 use crate::elimination::Elimination;
 use crate::factorization::Factorization;
 use problem::contract::finite;
-use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, EvalError, Matrix};
+use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, Effort, EvalError, Matrix};
 
 /// Share of the predicted decrease that a step must bring (α).
 const ARMIJO: f64 = 1e-4;
@@ -58,14 +58,6 @@ struct Work {
     trial_f: Vec<f64>,
 }
 
-/// What has been spent.
-#[derive(Default)]
-struct Tally {
-    iterations: usize,
-    residuals: usize,
-    jacobians: usize,
-}
-
 impl Newton {
     /// The method, without work arrays yet.
     pub fn new() -> Self {
@@ -99,10 +91,9 @@ impl AlgebraicMethod for Newton {
             self.work = None;
         }
         let work = self.work.get_or_insert_with(|| Work::new(size));
-        let mut tally = Tally::default();
-        let (ending, residual) = work.run(problem, x, options, self.matrices, &mut tally);
-        let Tally { iterations, residuals, jacobians } = tally;
-        AlgebraicOutcome { ending, iterations, residuals, jacobians, residual }
+        let mut effort = Effort::default();
+        let (ending, residual) = work.run(problem, x, options, self.matrices, &mut effort);
+        AlgebraicOutcome { ending, effort, residual }
     }
 }
 
@@ -127,13 +118,13 @@ impl Work {
         x: &mut [f64],
         options: &AlgebraicOptions,
         matrices: Matrices,
-        tally: &mut Tally,
+        effort: &mut Effort,
     ) -> (AlgebraicEnding, f64) {
         let max_step = MAX_STEP * scaled_square(x, problem.unknown_scale()).max(x.len() as f64).sqrt();
         let admissible = problem.bounds().iter().zip(&*x).all(|(&bound, &x)| admits(bound, x));
         let mut residual = f64::INFINITY;
         loop {
-            if let Err(error) = self.linearize(problem, x, tally) {
+            if let Err(error) = self.linearize(problem, x, effort) {
                 return (AlgebraicEnding::Evaluation(error), residual);
             }
             residual = largest(&self.f, problem.equation_scale());
@@ -143,20 +134,20 @@ impl Work {
             if residual <= options.residual_tolerance {
                 return (AlgebraicEnding::Converged, residual);
             }
-            tally.iterations += 1;
+            effort.iterations += 1;
             let (rows, columns) = (problem.equation_scale(), problem.unknown_scale());
             if self.elimination.solve(&self.jacobian, &self.f, rows, columns, &mut self.step).is_err() {
                 return (AlgebraicEnding::Singular, residual);
             }
             self.step.iter_mut().for_each(|step| *step = -*step);
-            let mut moved = match self.search(problem, x, options.step_tolerance, max_step, tally) {
+            let mut moved = match self.search(problem, x, options.step_tolerance, max_step, effort) {
                 Ok(moved) => moved,
                 Err(ending) => return (ending, residual),
             };
             x.copy_from_slice(&self.trial);
             residual = largest(&self.trial_f, problem.equation_scale());
             if matrices == Matrices::Kept && residual > options.residual_tolerance {
-                (residual, moved) = self.coast(problem, x, (residual, moved), options, tally);
+                (residual, moved) = self.coast(problem, x, (residual, moved), options, effort);
             }
             if residual <= options.residual_tolerance {
                 return (AlgebraicEnding::Converged, residual);
@@ -164,7 +155,7 @@ impl Work {
             if moved <= options.step_tolerance {
                 return (AlgebraicEnding::Stalled, residual);
             }
-            if tally.iterations >= options.max_iterations {
+            if effort.iterations >= options.max_iterations {
                 return (AlgebraicEnding::MaxIterations, residual);
             }
         }
@@ -177,14 +168,14 @@ impl Work {
         x: &mut [f64],
         (mut residual, mut moved): (f64, f64),
         options: &AlgebraicOptions,
-        tally: &mut Tally,
+        effort: &mut Effort,
     ) -> (f64, f64) {
         let jacobian = &self.jacobian;
         let rows = problem.equation_scale();
         if self.factors.factorize(problem.unknown_scale(), |i, j| jacobian[(i, j)] / rows[i]).is_err() {
             return (residual, moved);
         }
-        while residual > options.residual_tolerance && tally.iterations < options.max_iterations {
+        while residual > options.residual_tolerance && effort.iterations < options.max_iterations {
             for ((step, f), row) in self.step.iter_mut().zip(&self.trial_f).zip(problem.equation_scale()) {
                 *step = -f / row;
             }
@@ -193,7 +184,7 @@ impl Work {
                 break;
             }
             self.trial.iter_mut().zip(&*x).zip(&self.step).for_each(|((trial, x), step)| *trial = x + step);
-            (tally.residuals, tally.iterations) = (tally.residuals + 1, tally.iterations + 1);
+            (effort.residuals, effort.iterations) = (effort.residuals + 1, effort.iterations + 1);
             let evaluated = problem.residual(&self.trial, &mut self.f).and_then(|()| finite(&self.f));
             let after = evaluated.map_or(f64::INFINITY, |()| largest(&self.f, problem.equation_scale()));
             if after > FAST * residual {
@@ -208,8 +199,8 @@ impl Work {
     }
 
     /// Fills f and J at `x`.
-    fn linearize(&mut self, problem: &mut dyn AlgebraicProblem, x: &[f64], tally: &mut Tally) -> Result<(), EvalError> {
-        tally.jacobians += 1;
+    fn linearize(&mut self, problem: &mut dyn AlgebraicProblem, x: &[f64], effort: &mut Effort) -> Result<(), EvalError> {
+        effort.jacobians += 1;
         problem.jacobian(x, &mut self.f, &mut self.jacobian)?;
         finite(&self.f)?;
         // an empty system has no columns
@@ -225,7 +216,7 @@ impl Work {
         x: &[f64],
         step_tolerance: f64,
         max_step: f64,
-        tally: &mut Tally,
+        effort: &mut Effort,
     ) -> Result<f64, AlgebraicEnding> {
         let before = scaled_square(&self.f, problem.equation_scale());
         let length = relative_length(&self.step, x, problem.unknown_scale());
@@ -239,7 +230,7 @@ impl Work {
             for ((trial, x), step) in self.trial.iter_mut().zip(x).zip(&self.step) {
                 *trial = x + share * step;
             }
-            tally.residuals += 1;
+            effort.residuals += 1;
             match problem.residual(&self.trial, &mut self.trial_f).and_then(|()| finite(&self.trial_f)) {
                 Ok(()) => {
                     failed = None;

@@ -131,6 +131,7 @@ impl OdeMethod for Rosenbrock {
             convergence_failures: 0,
             residuals: run.residuals,
             jacobians: run.jacobians,
+            products: 0,
             iterations: run.solves,
         };
         (self.work.rates, self.work.roots) = (rates, roots);

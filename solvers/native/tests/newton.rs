@@ -16,7 +16,7 @@ fn published_solutions() {
 fn kept_matrices_save_jacobians() {
     let options = AlgebraicOptions::default();
     let [full, kept] = [Newton::new(), Newton::simplified()].map(|mut newton| broyden_tridiagonal().solve(&mut newton, &options).0);
-    assert!(full.converged() && kept.converged() && kept.jacobians < full.jacobians, "{full:?} {kept:?}");
+    assert!(full.converged() && kept.converged() && kept.effort.jacobians < full.effort.jacobians, "{full:?} {kept:?}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Square nonlinear systems and the methods that solve them.
 
 use crate::{EvalError, Matrix};
+use std::ops::AddAssign;
 
 /// Simple bound on one unknown, as KINSOL knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +34,13 @@ pub trait AlgebraicProblem {
     fn residual(&mut self, x: &[f64], f: &mut [f64]) -> Result<(), EvalError>;
     /// Writes f(x) and the Jacobian ∂f/∂x.
     fn jacobian(&mut self, x: &[f64], f: &mut [f64], jacobian: &mut Matrix) -> Result<(), EvalError>;
+    /// Writes ∂f/∂x v, for linear solvers that need no matrix. Left out, it forms the matrix.
+    fn product(&mut self, x: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        let mut jacobian = Matrix::zeros(v.len(), v.len());
+        self.jacobian(x, product, &mut jacobian)?;
+        jacobian.times(v, product);
+        Ok(())
+    }
 }
 
 /// What every method for algebraic systems understands.
@@ -69,17 +77,35 @@ pub enum AlgebraicEnding {
     Evaluation(EvalError),
 }
 
-/// What a method reports beside the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct AlgebraicOutcome {
-    /// How it ended.
-    pub ending: AlgebraicEnding,
+/// What a method has done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
     /// Iterations taken.
     pub iterations: usize,
     /// Residual evaluations.
     pub residuals: usize,
     /// Jacobian evaluations.
     pub jacobians: usize,
+    /// Products of the Jacobian with a vector, for linear solvers without matrix.
+    pub products: usize,
+}
+
+impl AddAssign for Effort {
+    fn add_assign(&mut self, more: Self) {
+        self.iterations += more.iterations;
+        self.residuals += more.residuals;
+        self.jacobians += more.jacobians;
+        self.products += more.products;
+    }
+}
+
+/// What a method reports beside the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct AlgebraicOutcome {
+    /// How it ended.
+    pub ending: AlgebraicEnding,
+    /// What it took.
+    pub effort: Effort,
     /// Largest scaled residual at the end.
     pub residual: f64,
 }

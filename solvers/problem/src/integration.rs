@@ -17,6 +17,13 @@ pub trait DaeProblem {
     fn residual(&mut self, time: f64, y: &[f64], yd: &[f64], residual: &mut [f64]) -> Result<(), EvalError>;
     /// Writes ∂F/∂y + c ∂F/∂ẏ.
     fn jacobian(&mut self, time: f64, c: f64, y: &[f64], yd: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError>;
+    /// Writes (∂F/∂y + c ∂F/∂ẏ) v, for linear solvers that need no matrix. Left out, it forms the matrix.
+    fn product(&mut self, (time, c): (f64, f64), (y, yd): (&[f64], &[f64]), v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        let mut jacobian = Matrix::zeros(v.len(), v.len());
+        self.jacobian(time, c, y, yd, &mut jacobian)?;
+        jacobian.times(v, product);
+        Ok(())
+    }
     /// Number of event functions.
     fn event_count(&self) -> usize {
         0
@@ -37,6 +44,13 @@ pub trait OdeProblem {
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
     /// Writes ∂f/∂y.
     fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError>;
+    /// Writes ∂f/∂y v, for linear solvers that need no matrix. Left out, it forms the matrix.
+    fn product(&mut self, time: f64, y: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        let mut jacobian = Matrix::zeros(v.len(), v.len());
+        self.jacobian(time, y, &mut jacobian)?;
+        jacobian.times(v, product);
+        Ok(())
+    }
     /// Brings y back onto the manifold after an accepted step; does nothing where there is none.
     fn project(&mut self, _time: f64, _y: &mut [f64]) -> Result<(), EvalError> {
         Ok(())
@@ -70,6 +84,8 @@ pub struct IntegrationOptions {
     pub algebraic: AlgebraicErrors,
     /// Where matrices come from: obeyed by who makes the problem.
     pub derivatives: Derivatives,
+    /// What solves the linear equations of a step; methods that know only one do not read it.
+    pub linear_solver: LinearSolver,
 }
 
 impl Default for IntegrationOptions {
@@ -83,6 +99,7 @@ impl Default for IntegrationOptions {
             max_steps: 100_000,
             algebraic: AlgebraicErrors::Suppressed,
             derivatives: Derivatives::Exact,
+            linear_solver: LinearSolver::Direct,
         }
     }
 }
@@ -111,6 +128,26 @@ impl Derivatives {
         match self {
             Self::Exact => "exact",
             Self::Differences => "differences",
+        }
+    }
+}
+
+/// What solves the linear equations of an implicit method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearSolver {
+    /// LU factors of the dense matrix.
+    Direct,
+    /// The generalized minimal residual method: products of the matrix with vectors, each one directional derivative. For the implicit form,
+    /// whose equations have other units than its unknowns, preconditioned by the LU factors of an earlier matrix.
+    Gmres,
+}
+
+impl LinearSolver {
+    /// Name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::Gmres => "gmres",
         }
     }
 }
@@ -169,6 +206,8 @@ pub struct IntegrationOutcome {
     pub residuals: usize,
     /// Jacobian evaluations.
     pub jacobians: usize,
+    /// Products of the Jacobian with a vector, for linear solvers without matrix.
+    pub products: usize,
     /// Nonlinear iterations (linear solves).
     pub iterations: usize,
 }
@@ -176,7 +215,7 @@ pub struct IntegrationOutcome {
 impl IntegrationOutcome {
     /// The outcome of an integration that has not begun.
     pub fn nothing_done(ending: IntegrationEnding, time: f64) -> Self {
-        Self { ending, time, steps: 0, rejected: 0, convergence_failures: 0, residuals: 0, jacobians: 0, iterations: 0 }
+        Self { ending, time, steps: 0, rejected: 0, convergence_failures: 0, residuals: 0, jacobians: 0, products: 0, iterations: 0 }
     }
 }
 

@@ -18,13 +18,13 @@ mod outcome;
 mod plant;
 mod signal;
 
-pub use algebraic::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound};
+pub use algebraic::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, Effort};
 pub use controller::{Answer, AnswerAlong, Controller};
 pub use error::EvalError;
 pub use family::{Family, Member, NoMember, Parameter, ParameterId};
 pub use integration::{
-    AlgebraicErrors, DaeMethod, DaeProblem, Derivatives, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod,
-    OdeProblem, Sink,
+    AlgebraicErrors, DaeMethod, DaeProblem, Derivatives, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, LinearSolver,
+    OdeMethod, OdeProblem, Sink,
 };
 pub use matrix::Matrix;
 pub use mode::{ModeRule, Nature, Occurs};

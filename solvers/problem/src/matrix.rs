@@ -2,7 +2,7 @@
 
 use std::ops::{Index, IndexMut};
 
-/// Dense matrix, column-major, as SUNDIALS and nalgebra store it. Storage only: no arithmetic lives here.
+/// Dense matrix, column-major, as SUNDIALS and nalgebra store it. Storage, and no arithmetic but the product that defines it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Matrix {
     rows: usize,
@@ -44,6 +44,14 @@ impl Matrix {
     /// One column.
     pub fn column_mut(&mut self, j: usize) -> &mut [f64] {
         &mut self.data[j * self.rows..(j + 1) * self.rows]
+    }
+
+    /// Writes A v.
+    pub fn times(&self, v: &[f64], product: &mut [f64]) {
+        product.fill(0.0);
+        for (j, v) in v.iter().enumerate() {
+            product.iter_mut().zip(self.column(j)).for_each(|(sum, entry)| *sum += entry * v);
+        }
     }
 
     /// Sets every entry.

@@ -95,7 +95,7 @@ pub struct At<'a> {
 }
 
 /// Directions in the space of (y, ẏ, u): one column per direction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Seeds {
     /// Directions of y, one column per direction.
     pub y: Matrix,

@@ -14,9 +14,11 @@
 use crate::raw::cvode::{Family, Memory, System};
 use crate::raw::integrator::{Request, Statistics};
 use problem::contract::{acceptable, check_times, coincide, finite};
-use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem, Sink};
+use problem::{
+    EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, LinearSolver, Matrix, OdeMethod, OdeProblem, Sink,
+};
 
-/// CVODE with one of its two families of formulas.
+/// CVODE with one of its two families of formulas, backward differentiation with matrices or by [`problem::LinearSolver::Gmres`].
 ///
 /// Keeps its integrator between problems of the same size.
 pub struct Cvode {
@@ -75,12 +77,13 @@ impl OdeMethod for Cvode {
             return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
         let family = self.family;
-        let work = self.work.take().filter(|work| work.sample.len() == size).unwrap_or_else(|| Work::new(size, family));
+        let linear = options.linear_solver;
+        let work = self.work.take().filter(|work| work.fits(size, linear)).unwrap_or_else(|| Work::new(size, family, linear));
         let work = self.work.insert(work);
         if self.jacobian.columns() != size {
             self.jacobian = Matrix::zeros(size, size);
         }
-        let bridge = Bridge { problem, jacobian: &mut self.jacobian, residuals: 0, jacobians: 0 };
+        let bridge = Bridge { problem, jacobian: &mut self.jacobian, residuals: 0, jacobians: 0, products: 0 };
         let absolute = bridge.problem.absolute_tolerance();
         assert_eq!(absolute.len(), size, "one tolerance per unknown");
         for (tolerance, absolute) in work.memory.tolerance_mut().iter_mut().zip(absolute) {
@@ -93,8 +96,12 @@ impl OdeMethod for Cvode {
 }
 
 impl Work {
-    fn new(size: usize, family: Family) -> Self {
-        Self { memory: Memory::new(size.max(1), family), sample: vec![0.0; size], rates: vec![0.0; size] }
+    fn new(size: usize, family: Family, linear: LinearSolver) -> Self {
+        Self { memory: Memory::new(size.max(1), family, linear), sample: vec![0.0; size], rates: vec![0.0; size] }
+    }
+
+    fn fits(&self, size: usize, linear: LinearSolver) -> bool {
+        self.sample.len() == size && self.memory.linear().is_none_or(|own| own == linear)
     }
 }
 
@@ -196,6 +203,7 @@ impl Run<'_> {
             convergence_failures: counted.convergence_failures,
             residuals: self.bridge.residuals,
             jacobians: self.bridge.jacobians,
+            products: self.bridge.products,
             iterations: counted.iterations,
         }
     }
@@ -207,6 +215,7 @@ struct Bridge<'a> {
     jacobian: &'a mut Matrix,
     residuals: usize,
     jacobians: usize,
+    products: usize,
 }
 
 impl Bridge<'_> {
@@ -228,6 +237,12 @@ impl System for Bridge<'_> {
         self.jacobian.as_slice().chunks_exact(y.len()).try_for_each(finite)?;
         jacobian.copy_from_slice(self.jacobian.as_slice());
         Ok(())
+    }
+
+    fn product(&mut self, time: f64, y: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        self.products += 1;
+        self.problem.product(time, y, v, product)?;
+        finite(product)
     }
 
     fn correction(&mut self, time: f64, y: &[f64], correction: &mut [f64]) -> Result<(), EvalError> {

@@ -7,7 +7,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// Return codes that every SUNDIALS callback understands.
 const SUCCESS: c_int = 0;
-const RECOVERABLE: c_int = 1;
+/// A smaller step may help.
+pub const RECOVERABLE: c_int = 1;
 /// No step helps.
 pub const FATAL: c_int = -1;
 

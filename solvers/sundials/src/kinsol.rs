@@ -1,19 +1,23 @@
-//! KINSOL: Newton's method with a line search or without, Picard and fixed-point iterations with Anderson acceleration.
+//! KINSOL: Newton's method with a line search or without, with matrices or products alone, Picard and fixed-point iterations with Anderson
+//! acceleration.
 //!
 //! x ← x + λ p with J p = −f. The step is shortened from λ = 1 by quadratic and cubic interpolation until ½‖D f‖² has
 //! decreased enough (α = 10⁻⁴) without stopping too early (β = 0.9); D holds the reciprocals of `equation_scale`.
 //!
+//! `kinsol_gmres` finds p without a matrix, from products J v; its tolerance ‖f + J p‖ ≤ η ‖f‖ follows from how well the last step was
+//! predicted (Eisenstat and Walker's first choice).
+//!
 //! `kinsol_picard` and `kinsol_fixed_point` iterate x ← x − J⁻¹ f(x) with the J of an earlier point (renewed every ten iterations, or that of
 //! the start) and combine the last five changes so that the residual of their linear combination is least. They take no bounds.
 //!
-//! Source: H. F. Walker, P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49, 2011, 1715–1735; A. M. Collier, A. C. Hindmarsh, R. Serban, C. S. Woodward, *User Documentation for KINSOL*, LLNL, section
+//! Source: S. C. Eisenstat, H. F. Walker, *Choosing the forcing terms in an inexact Newton method*, SIAM J. Sci. Comput. 17, 1996, 16–32; H. F. Walker, P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49, 2011, 1715–1735; A. M. Collier, A. C. Hindmarsh, R. Serban, C. S. Woodward, *User Documentation for KINSOL*, LLNL, section
 //! “Mathematical considerations”; J. E. Dennis, R. B. Schnabel, *Numerical Methods for Unconstrained Optimization and Nonlinear
 //! Equations*, SIAM 1996, algorithm A6.3.1mod.
 
-use crate::raw::dense::Factors;
 use crate::raw::kinsol::{Memory, Request, Stop, System};
+use crate::raw::linear::Factors;
 use problem::contract::finite;
-use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, EvalError, Matrix};
+use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, Effort, EvalError, Matrix};
 
 pub use crate::raw::kinsol::Strategy;
 
@@ -23,7 +27,7 @@ const MAX_STEP: f64 = 1e3;
 /// Iterations for which a matrix of the Picard iteration serves; KINSOL 7.1.1 itself asks for one in each.
 const RENEWED: usize = 10;
 
-/// KINSOL with exact dense Jacobians, renewed in every iteration.
+/// KINSOL with exact derivatives, renewed in every iteration.
 ///
 /// Keeps its solver between problems of the same size, so a sweep creates it once.
 #[derive(Default)]
@@ -57,6 +61,7 @@ impl AlgebraicMethod for Kinsol {
         match self.strategy {
             Strategy::LineSearch => "kinsol",
             Strategy::FullStep => "kinsol_newton",
+            Strategy::Krylov => "kinsol_gmres",
             Strategy::Picard => "kinsol_picard",
             Strategy::FixedPoint => "kinsol_fixed_point",
         }
@@ -72,7 +77,7 @@ impl AlgebraicMethod for Kinsol {
         let size = problem.size();
         assert_eq!(x.len(), size, "one start value per unknown");
         if size == 0 {
-            return AlgebraicOutcome { ending: AlgebraicEnding::Converged, iterations: 0, residuals: 0, jacobians: 0, residual: 0.0 };
+            return AlgebraicOutcome { ending: AlgebraicEnding::Converged, effort: Effort::default(), residual: 0.0 };
         }
         let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size, self.strategy));
         let work = self.work.insert(work);
@@ -118,18 +123,18 @@ impl Work {
             max_step: max_step(x, problem.unknown_scale()),
         };
         self.best.copy_from_slice(x);
-        let mut jacobians = 0;
+        let mut effort = Effort::default();
         if strategy == Strategy::FixedPoint {
             let evaluated = problem.jacobian(x, &mut self.f, &mut self.jacobian).and_then(|()| finite(&self.f));
             if let Err(error) = evaluated {
                 let ending = AlgebraicEnding::Evaluation(error);
-                return AlgebraicOutcome { ending, iterations: 0, residuals: 0, jacobians: 1, residual: f64::INFINITY };
+                return AlgebraicOutcome { ending, effort: Effort { jacobians: 1, ..effort }, residual: f64::INFINITY };
             }
-            jacobians = 1;
+            effort.jacobians = 1;
             if !self.start.get_or_insert_with(|| Factors::new(x.len())).factorize(self.jacobian.as_slice()) {
                 let residual = largest(&self.f, problem.equation_scale());
                 let ending = if residual <= options.residual_tolerance { AlgebraicEnding::Converged } else { AlgebraicEnding::Singular };
-                return AlgebraicOutcome { ending, iterations: 0, residuals: 0, jacobians, residual };
+                return AlgebraicOutcome { ending, effort, residual };
             }
         }
         let mut bridge = Bridge {
@@ -142,11 +147,10 @@ impl Work {
             tolerance: options.residual_tolerance,
             renewed: if strategy == Strategy::Picard { RENEWED } else { 1 },
             asked: 0,
-            residuals: 0,
-            jacobians,
+            effort,
         };
         let report = self.memory.solve(&mut bridge, &request);
-        let Bridge { best_residual, residuals, jacobians, .. } = bridge;
+        let Bridge { best_residual, effort, .. } = bridge;
         x.copy_from_slice(&self.best);
         let ending = match report.stop {
             // judged by what was evaluated at x, whatever KINSOL says
@@ -159,14 +163,14 @@ impl Work {
             Stop::Evaluation if strategy == Strategy::Picard && report.error.is_none() => AlgebraicEnding::Singular,
             Stop::Evaluation => report.error.map_or(AlgebraicEnding::NoDecrease, AlgebraicEnding::Evaluation),
         };
-        AlgebraicOutcome { ending, iterations: report.iterations, residuals, jacobians, residual: best_residual }
+        AlgebraicOutcome { ending, effort: Effort { iterations: report.iterations, ..effort }, residual: best_residual }
     }
 
     /// The outcome at a start from which KINSOL would refuse to go.
     fn residual_only(&mut self, problem: &mut dyn AlgebraicProblem, x: &[f64]) -> AlgebraicOutcome {
         let evaluated = problem.residual(x, &mut self.f).and_then(|()| finite(&self.f));
         let residual = evaluated.map_or(f64::INFINITY, |()| largest(&self.f, problem.equation_scale()));
-        AlgebraicOutcome { ending: AlgebraicEnding::NoDecrease, iterations: 0, residuals: 1, jacobians: 0, residual }
+        AlgebraicOutcome { ending: AlgebraicEnding::NoDecrease, effort: Effort { residuals: 1, ..Effort::default() }, residual }
     }
 }
 
@@ -182,13 +186,12 @@ struct Bridge<'a> {
     /// Iterations for which a matrix serves, and how many were asked for.
     renewed: usize,
     asked: usize,
-    residuals: usize,
-    jacobians: usize,
+    effort: Effort,
 }
 
 impl System for Bridge<'_> {
     fn residual(&mut self, x: &[f64], f: &mut [f64]) -> Result<(), EvalError> {
-        self.residuals += 1;
+        self.effort.residuals += 1;
         self.problem.residual(x, f)?;
         finite(f)?;
         let residual = largest(f, self.problem.equation_scale());
@@ -216,13 +219,19 @@ impl System for Bridge<'_> {
     fn jacobian(&mut self, x: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError> {
         self.asked += 1;
         if (self.asked - 1).is_multiple_of(self.renewed) {
-            self.jacobians += 1;
+            self.effort.jacobians += 1;
             self.problem.jacobian(x, self.f, self.jacobian)?;
             finite(self.f)?;
             self.jacobian.as_slice().chunks_exact(x.len()).try_for_each(finite)?;
         }
         jacobian.copy_from_slice(self.jacobian.as_slice());
         Ok(())
+    }
+
+    fn product(&mut self, x: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        self.effort.products += 1;
+        self.problem.product(x, v, product)?;
+        finite(product)
     }
 }
 

@@ -16,7 +16,9 @@
 
 use crate::raw::arkode::{Memory, Step, System, Table};
 use problem::contract::{acceptable, check_times, coincide, crossed, finite, resolution, secant, without_unknowns};
-use problem::{EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem, Sink};
+use problem::{
+    EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, LinearSolver, Matrix, OdeMethod, OdeProblem, Sink,
+};
 use std::mem::swap;
 
 /// The explicit pair.
@@ -45,7 +47,7 @@ impl RungeKutta {
         Self { table: VERNER, name: "erk", work: None }
     }
 
-    /// Diagonally implicit with exact matrices, order 5, L-stable.
+    /// Diagonally implicit, order 5, L-stable, with exact matrices or by [`problem::LinearSolver::Gmres`].
     pub fn implicit() -> Self {
         Self { table: KENNEDY_CARPENTER, name: "dirk", work: None }
     }
@@ -116,12 +118,13 @@ impl OdeMethod for RungeKutta {
         if size == 0 {
             return without_unknowns(times, sink);
         }
-        let work = self.work.take().filter(|work| work.memory.size() == size).unwrap_or_else(|| Work::new(size, self.table));
+        let linear = options.linear_solver;
+        let work = self.work.take().filter(|work| work.fits(size, linear)).unwrap_or_else(|| Work::new(size, self.table, linear));
         let work = self.work.insert(work);
         if !work.start(problem, times[0], y, options) {
             return IntegrationOutcome::nothing_done(IntegrationEnding::Refused, times[0]);
         }
-        let bridge = Bridge { problem, rates: &mut work.rates, jacobian: &mut work.jacobian, residuals: 0, jacobians: 0 };
+        let bridge = Bridge { problem, rates: &mut work.rates, jacobian: &mut work.jacobian, residuals: 0, jacobians: 0, products: 0 };
         let Work { memory, before, after, beyond, .. } = work;
         let mut run = Run { memory, bridge, before, after, beyond, max_steps: options.max_steps, steps: 0, cuts: 0 };
         let ending = run.visit(times, sink).err().unwrap_or(IntegrationEnding::Finished);
@@ -130,11 +133,15 @@ impl OdeMethod for RungeKutta {
 }
 
 impl Work {
-    fn new(size: usize, table: Table) -> Self {
+    fn fits(&self, size: usize, linear: LinearSolver) -> bool {
+        self.memory.size() == size && self.memory.linear().is_none_or(|own| own == linear)
+    }
+
+    fn new(size: usize, table: Table, linear: LinearSolver) -> Self {
         let point = Point { time: 0.0, y: vec![0.0; size], events: Vec::new() };
         let rates = Rates { time: f64::NAN, y: vec![0.0; size], yd: vec![0.0; size] };
         Self {
-            memory: Memory::new(size, table),
+            memory: Memory::new(size, table, linear),
             rates,
             jacobian: Matrix::zeros(size, size),
             before: point.clone(),
@@ -277,6 +284,7 @@ impl Run<'_> {
             convergence_failures: self.cuts + failures,
             residuals: self.bridge.residuals,
             jacobians: self.bridge.jacobians,
+            products: self.bridge.products,
             iterations,
         }
     }
@@ -289,6 +297,7 @@ struct Bridge<'a> {
     jacobian: &'a mut Matrix,
     residuals: usize,
     jacobians: usize,
+    products: usize,
 }
 
 impl Bridge<'_> {
@@ -329,6 +338,12 @@ impl System for Bridge<'_> {
         self.jacobian.as_slice().chunks_exact(y.len()).try_for_each(finite)?;
         jacobian.copy_from_slice(self.jacobian.as_slice());
         Ok(())
+    }
+
+    fn product(&mut self, time: f64, y: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        self.products += 1;
+        self.problem.product(time, y, v, product)?;
+        finite(product)
     }
 
     fn accept(&mut self, time: f64, y: &mut [f64]) -> Result<(), EvalError> {

@@ -3,7 +3,7 @@
 mod motion;
 
 use motion::*;
-use problem::{AlgebraicErrors, DaeMethod, DaeProblem, EvalError, Flow, IntegrationEnding, IntegrationOptions, Matrix};
+use problem::{AlgebraicErrors, DaeMethod, DaeProblem, EvalError, Flow, IntegrationEnding, IntegrationOptions, LinearSolver, Matrix};
 use std::f64::consts::PI;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use sundials::{Ida, RungeKutta};
@@ -42,13 +42,16 @@ fn robertson_over_eleven_decades() {
     let times: Vec<f64> = std::iter::once(0.0).chain(ROBERTSON.map(|row| row.0)).collect();
     let (y, yd) = Robertson::START;
     // absolute tolerances far below the values, so that the relative one counts
-    let options = IntegrationOptions { absolute_tolerance_factor: 1e-8, ..tested(1e-8) };
-    let record = ida(&mut Robertson { events: false }, &times, (&y, &yd), &options).finished(&times);
-    for ((time, y, _), (_, published)) in record.samples[1..].iter().zip(ROBERTSON) {
-        for (y, published) in y.iter().zip(published) {
-            assert!((y / published - 1.0).abs() < 1e-5, "{y:e} for {published:e} at {time:e}");
+    for linear_solver in LINEAR_SOLVERS {
+        let options = IntegrationOptions { absolute_tolerance_factor: 1e-8, linear_solver, ..tested(1e-8) };
+        let record = ida(&mut Robertson { events: false }, &times, (&y, &yd), &options).finished(&times);
+        for ((time, y, _), (_, published)) in record.samples[1..].iter().zip(ROBERTSON) {
+            for (y, published) in y.iter().zip(published) {
+                assert!((y / published - 1.0).abs() < 1e-5, "{y:e} for {published:e} at {time:e}");
+            }
+            assert!((y.iter().sum::<f64>() - 1.0).abs() < 1e-8);
         }
-        assert!((y.iter().sum::<f64>() - 1.0).abs() < 1e-8);
+        assert_eq!(record.outcome.products > 0, linear_solver == LinearSolver::Gmres);
     }
 }
 
@@ -74,9 +77,13 @@ fn robertson_with_the_roots_of_the_guide() {
 fn the_pendulum_of_index_two() {
     let times = Pendulum::times();
     let (y, yd) = Pendulum::IMPLICIT_START;
-    for (relative, close) in [(1e-6, 1e-3), (1e-8, 1e-5), (1e-10, 1e-7)] {
-        let record = ida(&mut Pendulum { projected: false, watched: false }, &times, (&y, &yd), &tolerance(relative)).finished(&times);
+    let cases = [(1e-6, 1e-3), (1e-8, 1e-5), (1e-10, 1e-7)].into_iter().flat_map(|case| LINEAR_SOLVERS.map(|linear| (case, linear)));
+    for ((relative, close), linear_solver) in cases {
+        let options = IntegrationOptions { linear_solver, ..tolerance(relative) };
+        let record = ida(&mut Pendulum { projected: false, watched: false }, &times, (&y, &yd), &options).finished(&times);
         let error = record.deviation(Pendulum::exact);
+        // steps are others, and errors differ by less than their size
+        let close = if linear_solver == LinearSolver::Gmres { 2.0 * close } else { close };
         assert!(error < close, "{error:e} at {relative:e}");
         // λ = v² − g y, and the second multiplier vanishes
         for (time, s, _) in &record.samples[1..] {
@@ -180,8 +187,13 @@ fn steps_that_cannot_be_evaluated_are_shortened() {
 
 #[test]
 fn a_wall_is_reached_and_named() {
+    LINEAR_SOLVERS.into_iter().for_each(walls_are_named_by);
+}
+
+fn walls_are_named_by(linear_solver: LinearSolver) {
     let mut walled = Scalar::decay();
-    let run = |walled: &mut Scalar| ida(walled, &[0.0, 0.25, 1.0], (&[1.0], &[-1.0]), &tolerance(1e-8));
+    let options = IntegrationOptions { linear_solver, ..tolerance(1e-8) };
+    let run = |walled: &mut Scalar| ida(walled, &[0.0, 0.25, 1.0], (&[1.0], &[-1.0]), &options);
     walled.rate = |time, y| if time > 0.5 { Err(EvalError::Recoverable { equation: 7 }) } else { Ok(-y) };
     let record = run(&mut walled);
     assert_eq!(record.outcome.ending, IntegrationEnding::Evaluation(EvalError::Recoverable { equation: 7 }));
@@ -237,10 +249,12 @@ fn endings_are_told_apart() {
     assert_eq!((record.outcome.ending, record.outcome.steps), (IntegrationEnding::TooManySteps, 3));
     assert!(record.outcome.time > 0.0 && largest_difference(&record.y, &Oscillator::exact(record.outcome.time)) < 1e-8);
 
-    let first = IntegrationOptions { first_step: Some(1.0), ..tolerance(1e-9) };
-    let run = |matrix| ida(&mut Mistaken { matrix }, &[0.0, 1.0], (&[1.0, 0.0], &[-1e9, 0.0]), &first).outcome.ending;
-    assert_eq!(run(|c| [c, 0.0, 0.0, 0.0]), IntegrationEnding::Singular);
-    assert_eq!(run(|c| [-c, 0.0, 0.0, 1.0]), IntegrationEnding::Convergence);
+    for linear_solver in LINEAR_SOLVERS {
+        let first = IntegrationOptions { first_step: Some(1.0), linear_solver, ..tolerance(1e-9) };
+        let run = |matrix| ida(&mut Mistaken { matrix }, &[0.0, 1.0], (&[1.0, 0.0], &[-1e9, 0.0]), &first).outcome.ending;
+        assert_eq!(run(|c| [c, 0.0, 0.0, 0.0]), IntegrationEnding::Singular);
+        assert_eq!(run(|c| [-c, 0.0, 0.0, 1.0]), IntegrationEnding::Convergence);
+    }
 
     let mut noise = Scalar::decay();
     noise.rate = |time, _| Ok(1e12 * (1e18 * time).sin());
@@ -280,13 +294,14 @@ fn a_panic_passes_through_and_leaves_the_integrator_usable() {
         |law| law.slope = |_, _| panic!("the law has no value here"),
         |law| law.event = Some(|time, _| if time > 0.5 { panic!("the law has no value here") } else { Ok(1.0) }),
     ];
-    for raise in raising {
+    for (raise, linear_solver) in raising.into_iter().flat_map(|raise| LINEAR_SOLVERS.map(|linear| (raise, linear))) {
         let mut law = quiet();
         raise(&mut law);
-        let run = AssertUnwindSafe(|| record_dae(&mut ida, &mut law, &[0.0, 1.0], (&[1.0], &[-1.0]), &tolerance(1e-8)).outcome);
+        let options = IntegrationOptions { linear_solver, ..tolerance(1e-8) };
+        let run = AssertUnwindSafe(|| record_dae(&mut ida, &mut law, &[0.0, 1.0], (&[1.0], &[-1.0]), &options).outcome);
         let panic = catch_unwind(run).unwrap_err();
         assert_eq!(panic.downcast_ref::<&str>(), Some(&"the law has no value here"));
-        let record = record_dae(&mut ida, &mut quiet(), &[0.0, 1.0], (&[1.0], &[-1.0]), &tolerance(1e-8)).finished(&[0.0, 1.0]);
+        let record = record_dae(&mut ida, &mut quiet(), &[0.0, 1.0], (&[1.0], &[-1.0]), &options).finished(&[0.0, 1.0]);
         assert!(record.deviation(|time| vec![(-time).exp()]) < 1e-6);
     }
 }

@@ -64,7 +64,7 @@ fn sweep(
             x[places.roll] -= lean(j) - lean(j.saturating_sub(1));
             let outcome = walk.solve(problem, method, &[speed, lateral(j) / speed], x);
             assert!(outcome.converged(), "{} m/s, {} m/s²: {outcome:?}", speed, lateral(j));
-            iterations += outcome.iterations;
+            iterations += outcome.effort.iterations;
             if j == 0 {
                 straight.copy_from_slice(x);
             }

@@ -85,6 +85,7 @@ pub(super) fn statistics(outcome: &Outcome) -> Value {
         "convergence_failures": s.convergence_failures,
         "residuals": s.residuals,
         "jacobians": s.jacobians,
+        "products": s.products,
         "iterations": s.iterations,
         "wall_s": outcome.wall,
     })

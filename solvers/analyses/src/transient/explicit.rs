@@ -2,7 +2,7 @@
 
 use super::SharedPlant;
 use super::acting::{Acting, Observer};
-use super::differences::Differences;
+use super::differences::{Differences, Directional};
 use super::watch::Watch;
 use problem::contract::finite;
 use problem::{At, Derivatives, EquationKind, EvalError, Integrable, Matrix, OdeProblem, Off, ProjectionError, Seeds, UnknownKind};
@@ -81,10 +81,10 @@ impl<'a, 'p> Whole<'a, 'p> {
 
 /// What ∂f/∂y comes from.
 enum Tangent {
-    /// One direction per state, and the derivatives of all rates along them.
-    Exact { seeds: Seeds, solved: Matrix },
+    /// One direction per state or one alone, and the derivatives of all rates along them.
+    Exact { all: (Seeds, Matrix), one: (Seeds, Matrix) },
     /// Rates beside the point.
-    Differences(Differences),
+    Differences { columns: Differences, along: Directional },
 }
 
 impl Tangent {
@@ -92,13 +92,16 @@ impl Tangent {
         match derivatives {
             Derivatives::Exact => {
                 let (n, m) = (plant.unknowns().len(), states.len());
-                let mut seeds = Seeds::zeros(n, plant.inputs().len(), m);
-                states.iter().enumerate().for_each(|(k, &i)| seeds.y[(i, k)] = 1.0);
-                Self::Exact { seeds, solved: Matrix::zeros(n, m) }
+                let directions = |count| (Seeds::zeros(n, plant.inputs().len(), count), Matrix::zeros(n, count));
+                let (mut all, one) = (directions(m), directions(1));
+                states.iter().enumerate().for_each(|(k, &i)| all.0.y[(i, k)] = 1.0);
+                Self::Exact { all, one }
             }
             Derivatives::Differences => {
-                let nominal = states.iter().map(|&i| plant.unknowns()[i].nominal).collect();
-                Self::Differences(Differences::new(nominal, states.len()))
+                let nominal: Vec<f64> = states.iter().map(|&i| plant.unknowns()[i].nominal).collect();
+                let kinds = states.iter().map(|&i| plant.unknowns()[i].kind as usize).collect();
+                let along = Directional::new(nominal.clone(), kinds, states.len());
+                Self::Differences { columns: Differences::new(nominal, states.len()), along }
             }
         }
     }
@@ -139,7 +142,7 @@ impl<'a, 'p> ExplicitForm<'a, 'p> {
     pub(super) fn evaluations(&self) -> usize {
         match &self.tangent {
             Tangent::Exact { .. } => 0,
-            Tangent::Differences(differences) => differences.evaluations,
+            Tangent::Differences { columns, along } => columns.evaluations + along.evaluations,
         }
     }
 
@@ -182,7 +185,7 @@ impl OdeProblem for ExplicitForm<'_, '_> {
     fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
         let whole = &mut self.whole;
         let differentiated = match &mut self.tangent {
-            Tangent::Exact { seeds, solved } => whole.complete(time, y).map(|_| ()).and_then(|()| {
+            Tangent::Exact { all: (seeds, solved), .. } => whole.complete(time, y).map(|_| ()).and_then(|()| {
                 let at = At { time, y: &whole.y, yd: &whole.yd, u: &whole.u };
                 whole.plant.borrow_mut().rates_along(at, seeds, solved)?;
                 for k in 0..whole.states.len() {
@@ -192,7 +195,7 @@ impl OdeProblem for ExplicitForm<'_, '_> {
                 }
                 Ok(())
             }),
-            Tangent::Differences(differences) => differences.quotients(
+            Tangent::Differences { columns, .. } => columns.quotients(
                 y,
                 |y, _, rates| {
                     whole.complete(time, y)?;
@@ -200,6 +203,30 @@ impl OdeProblem for ExplicitForm<'_, '_> {
                     Ok(())
                 },
                 jacobian,
+            ),
+        };
+        self.failure = differentiated.err();
+        differentiated
+    }
+    fn product(&mut self, time: f64, y: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        let whole = &mut self.whole;
+        let differentiated = match &mut self.tangent {
+            Tangent::Exact { one: (seeds, solved), .. } => whole.complete(time, y).map(|_| ()).and_then(|()| {
+                whole.states.iter().zip(v).for_each(|(&i, v)| seeds.y[(i, 0)] = *v);
+                let at = At { time, y: &whole.y, yd: &whole.yd, u: &whole.u };
+                whole.plant.borrow_mut().rates_along(at, seeds, solved)?;
+                product.iter_mut().zip(&whole.states).for_each(|(entry, &i)| *entry = solved[(i, 0)]);
+                Ok(())
+            }),
+            Tangent::Differences { along, .. } => along.product(
+                y,
+                v,
+                |y, rates| {
+                    whole.complete(time, y)?;
+                    rates.iter_mut().zip(&whole.states).for_each(|(rate, &i)| *rate = whole.yd[i]);
+                    Ok(())
+                },
+                product,
             ),
         };
         self.failure = differentiated.err();

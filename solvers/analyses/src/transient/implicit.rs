@@ -3,7 +3,7 @@
 use super::SharedPlant;
 use super::acting::{Acting, Observer};
 use super::diagnosis::{TOLD, off};
-use super::differences::Differences;
+use super::differences::{Differences, Directional};
 use super::watch::Watch;
 use problem::{At, DaeProblem, Derivatives, EvalError, IntegrationOptions, Matrix, Off, Seeds};
 
@@ -27,8 +27,13 @@ pub(super) struct Implicit<'a, 'p> {
     seeded: Option<f64>,
     d_residual: Matrix,
     d_outputs: Matrix,
+    /// One direction and the derivatives along it.
+    along: (Seeds, Matrix, Matrix),
     differences: Option<Differences>,
     yd: Vec<f64>,
+    directional: Option<Directional>,
+    /// y over ẏ: a point and a direction.
+    stacked: (Vec<f64>, Vec<f64>),
 }
 
 impl<'a, 'p> Implicit<'a, 'p> {
@@ -45,6 +50,11 @@ impl<'a, 'p> Implicit<'a, 'p> {
         // the method multiplies all of them by the factor of the options
         let share = algebraic_factor / options.absolute_tolerance_factor.max(f64::MIN_POSITIVE);
         let mut seeds = Seeds::zeros(ny, nu, ny);
+        let quotients = options.derivatives == Derivatives::Differences;
+        let nominal: Vec<f64> = p.unknowns().iter().map(|u| u.nominal).collect();
+        let kinds = || p.unknowns().iter().map(|u| u.kind as usize);
+        // unknowns and rates of each kind by themselves
+        let groups = kinds().map(|kind| 2 * kind).chain(kinds().map(|kind| 2 * kind + 1)).collect();
         (0..ny).for_each(|i| seeds.y[(i, i)] = 1.0);
         Self {
             plant,
@@ -62,9 +72,11 @@ impl<'a, 'p> Implicit<'a, 'p> {
             seeded: None,
             d_residual: Matrix::zeros(nf, ny),
             d_outputs: Matrix::zeros(nz, ny),
-            differences: (options.derivatives == Derivatives::Differences)
-                .then(|| Differences::new(p.unknowns().iter().map(|u| u.nominal).collect(), nf)),
+            along: (Seeds::zeros(ny, nu, 1), Matrix::zeros(nf, 1), Matrix::zeros(nz, 1)),
+            directional: quotients.then(|| Directional::new(nominal.repeat(2), groups, nf)),
+            differences: quotients.then(|| Differences::new(nominal, nf)),
             yd: vec![0.0; ny],
+            stacked: (vec![0.0; 2 * ny], vec![0.0; 2 * ny]),
         }
     }
 
@@ -80,7 +92,8 @@ impl<'a, 'p> Implicit<'a, 'p> {
 
     /// Evaluations of the residual for difference quotients.
     pub(super) fn evaluations(&self) -> usize {
-        self.differences.as_ref().map_or(0, |differences| differences.evaluations)
+        let of_columns = self.differences.as_ref().map_or(0, |differences| differences.evaluations);
+        of_columns + self.directional.as_ref().map_or(0, |directional| directional.evaluations)
     }
 
     /// The matrix from residuals beside the point.
@@ -101,6 +114,28 @@ impl<'a, 'p> Implicit<'a, 'p> {
         };
         let evaluated = differences.quotients(y, evaluate, jacobian);
         self.yd = beside;
+        evaluated
+    }
+
+    /// The product of the matrix with v from residuals beside the point.
+    fn quotient(
+        &mut self,
+        (time, c): (f64, f64),
+        (y, yd): (&[f64], &[f64]),
+        (v, product): (&[f64], &mut [f64]),
+        directional: &mut Directional,
+    ) -> Result<(), EvalError> {
+        let n = y.len();
+        let (mut point, mut along) = std::mem::take(&mut self.stacked);
+        point[..n].copy_from_slice(y);
+        point[n..].copy_from_slice(yd);
+        along[..n].copy_from_slice(v);
+        for ((rate, &differential), v) in along[n..].iter_mut().zip(&self.differential).zip(v) {
+            *rate = if differential { c * v } else { 0.0 };
+        }
+        let evaluate = |beside: &[f64], residual: &mut [f64]| self.residual(time, &beside[..n], &beside[n..], residual);
+        let evaluated = directional.product(&point, &along, evaluate, product);
+        self.stacked = (point, along);
         evaluated
     }
 
@@ -154,6 +189,26 @@ impl DaeProblem for Implicit<'_, '_> {
             let column = jacobian.column_mut(j).iter_mut().zip(self.d_residual.column(j)).zip(&self.nominal);
             column.for_each(|((scaled, entry), nominal)| *scaled = entry / nominal);
         }
+        evaluated
+    }
+    fn product(&mut self, (time, c): (f64, f64), (y, yd): (&[f64], &[f64]), v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        if let Some(mut directional) = self.directional.take() {
+            let evaluated = self.quotient((time, c), (y, yd), (v, product), &mut directional);
+            self.directional = Some(directional);
+            return evaluated;
+        }
+        let (seeds, d_residual, d_outputs) = &mut self.along;
+        seeds.y.as_mut_slice().copy_from_slice(v);
+        for ((rate, &differential), v) in seeds.yd.as_mut_slice().iter_mut().zip(&self.differential).zip(v) {
+            *rate = if differential { c * v } else { 0.0 };
+        }
+        self.acting.at(time, &mut self.u);
+        let at = At { time, y, yd, u: &self.u };
+        let values = (&mut self.last[..], &mut self.outputs[..]);
+        let evaluated = self.plant.borrow_mut().along(at, seeds, values, d_residual, d_outputs);
+        self.failure = evaluated.err();
+        let rows = d_residual.as_slice().iter().zip(&self.nominal);
+        product.iter_mut().zip(rows).for_each(|(scaled, (entry, nominal))| *scaled = entry / nominal);
         evaluated
     }
     fn event_count(&self) -> usize {

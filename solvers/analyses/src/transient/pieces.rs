@@ -36,6 +36,7 @@ fn sum(before: &IntegrationOutcome, piece: &IntegrationOutcome) -> IntegrationOu
         convergence_failures: before.convergence_failures + piece.convergence_failures,
         residuals: before.residuals + piece.residuals,
         jacobians: before.jacobians + piece.jacobians,
+        products: before.products + piece.products,
         iterations: before.iterations + piece.iterations,
     }
 }

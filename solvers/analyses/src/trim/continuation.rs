@@ -3,7 +3,7 @@
 use super::diagnosis::{fold, violated, worst};
 use super::roles::TrimError;
 use super::system::TrimProblem;
-use problem::{AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Ending};
+use problem::{AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Effort, Ending};
 
 /// One steady state, or the last one before the path ended.
 #[derive(Clone, Debug)]
@@ -15,8 +15,8 @@ pub struct TrimPoint {
     /// Whether the equations hold at the goals; a declared limit may be violated there all the same. Where false, the values
     /// are those of the last steady state before the path ended.
     pub solved: bool,
-    /// Iterations of the method, all steps together.
-    pub iterations: usize,
+    /// What the method did, all steps together.
+    pub effort: Effort,
     /// Largest scaled residual.
     pub residual: f64,
     /// Solution of the algebraic system (of the last steady state where the goal was not reached).
@@ -78,7 +78,7 @@ impl Walk {
         let at = |s: f64| -> Vec<f64> { start.iter().zip(to).map(|(a, b)| a + s * (b - a)).collect() };
         let steps = start.iter().zip(to).zip(&self.largest_steps).map(|((a, b), h)| ((b - a) / h).abs().ceil());
         let mut step = 1.0 / steps.fold(1.0, f64::max).max(1.0);
-        let (mut s, mut iterations, mut residual) = (0.0, 0, f64::NAN);
+        let (mut s, mut effort, mut residual) = (0.0, Effort::default(), f64::NAN);
         let mut before: Option<(f64, Vec<f64>)> = None;
         while s < 1.0 {
             let next = if s + step > 1.0 - 1e-12 { 1.0 } else { s + step };
@@ -90,7 +90,7 @@ impl Walk {
             let allowance = self.largest_correction * if before.is_some() { 1.0 } else { 3.0 };
             let predicted = trial.clone();
             let outcome = self.solve(problem, method, &at(next), &mut trial);
-            iterations += outcome.iterations;
+            effort += outcome.effort;
             if outcome.converged() && distance(&predicted, &trial, problem.unknown_scale()) <= allowance {
                 before = Some((s, std::mem::replace(&mut x, trial)));
                 (s, residual) = (next, outcome.residual);
@@ -100,7 +100,7 @@ impl Walk {
                 // a predictor from far back may be the reason: once more from the last point
                 before = before.filter(|_| step > 0.05);
                 if step < self.smallest_fraction {
-                    return Ok(self.ended(problem, &at(s), to, &x, iterations));
+                    return Ok(self.ended(problem, &at(s), to, &x, effort));
                 }
             }
         }
@@ -111,11 +111,11 @@ impl Walk {
         debug_assert!(evaluated.is_ok());
         problem.check_implied()?;
         let ending = violated(problem).unwrap_or(Ending::Reached);
-        Ok(self.point(problem, (ending, true), iterations, residual, x))
+        Ok(self.point(problem, (ending, true), effort, residual, x))
     }
 
     /// The end of a path that did not reach its goals.
-    fn ended(&self, problem: &mut TrimProblem<'_>, reached: &[f64], to: &[f64], x: &[f64], iterations: usize) -> TrimPoint {
+    fn ended(&self, problem: &mut TrimProblem<'_>, reached: &[f64], to: &[f64], x: &[f64], effort: Effort) -> TrimPoint {
         problem.set_goals(reached);
         let n = problem.size();
         let (mut f, mut J) = (vec![0.0; n], problem::Matrix::zeros(n, n));
@@ -126,27 +126,20 @@ impl Walk {
             Err(_) => Ending::NotConverged { because: "the equations cannot be evaluated at the start of the path".to_owned() },
         };
         let residual = f.iter().zip(problem.equation_scale()).map(|(f, s)| (f / s).abs()).fold(0.0, f64::max);
-        let mut point = self.point(problem, (ending, false), iterations, residual, x.to_vec());
+        let mut point = self.point(problem, (ending, false), effort, residual, x.to_vec());
         for ((_, value), goal) in point.goals.iter_mut().zip(to) {
             *value = *goal;
         }
         point
     }
 
-    fn point(
-        &self,
-        problem: &TrimProblem<'_>,
-        (ending, solved): (Ending, bool),
-        iterations: usize,
-        residual: f64,
-        x: Vec<f64>,
-    ) -> TrimPoint {
+    fn point(&self, problem: &TrimProblem<'_>, (ending, solved): (Ending, bool), effort: Effort, residual: f64, x: Vec<f64>) -> TrimPoint {
         let (y, yd, u, outputs) = problem.point();
         TrimPoint {
             goals: problem.goals(),
             ending,
             solved,
-            iterations,
+            effort,
             residual,
             x,
             y: y.to_vec(),

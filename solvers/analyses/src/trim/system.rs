@@ -47,6 +47,8 @@ pub struct TrimProblem<'p> {
     seeds: Seeds,
     d_residual: Matrix,
     d_outputs: Matrix,
+    /// One direction and the derivatives along it.
+    along: (Seeds, Matrix, Matrix),
 }
 
 /// Value of a variable.
@@ -147,6 +149,7 @@ impl<'p> TrimProblem<'p> {
             seeds: Seeds::zeros(ny, nu, n),
             d_residual: Matrix::zeros(nf, n),
             d_outputs: Matrix::zeros(nz, n),
+            along: (Seeds::zeros(ny, nu, 1), Matrix::zeros(nf, 1), Matrix::zeros(nz, 1)),
             plant,
             unknowns,
             guess,
@@ -337,29 +340,30 @@ impl<'p> TrimProblem<'p> {
 
     /// Copies the derivatives of `self.rows`.
     fn collect_jacobian(&self, J: &mut Matrix) {
-        for (r, row) in self.rows.iter().enumerate() {
-            match *row {
-                Row::Equation(i) => {
-                    for j in 0..self.unknowns.len() {
-                        J[(r, j)] = self.d_residual[(i, j)];
-                    }
-                }
-                Row::Condition(k) => {
-                    let of = |v| value(v, &self.y, &self.yd, &self.u, &self.outputs);
-                    for j in 0..self.unknowns.len() {
-                        let mut sum = 0.0;
-                        self.conditions[k].left.gradient(&of, 1.0, &mut |v, weight| {
-                            sum += weight
-                                * match v {
-                                    Variable::Unknown(i) => self.seeds.y[(i, j)],
-                                    Variable::Rate(i) => self.seeds.yd[(i, j)],
-                                    Variable::Input(i) => self.seeds.u[(i, j)],
-                                    Variable::Output(i) => self.d_outputs[(i, j)],
-                                };
-                        });
-                        J[(r, j)] = sum;
-                    }
-                }
+        for (r, &row) in self.rows.iter().enumerate() {
+            for j in 0..self.unknowns.len() {
+                J[(r, j)] = self.row_along(row, j, (&self.seeds, &self.d_residual, &self.d_outputs));
+            }
+        }
+    }
+
+    /// Derivative of a row along one direction.
+    fn row_along(&self, row: Row, j: usize, (seeds, d_residual, d_outputs): (&Seeds, &Matrix, &Matrix)) -> f64 {
+        match row {
+            Row::Equation(i) => d_residual[(i, j)],
+            Row::Condition(k) => {
+                let of = |v| value(v, &self.y, &self.yd, &self.u, &self.outputs);
+                let mut sum = 0.0;
+                self.conditions[k].left.gradient(&of, 1.0, &mut |v, weight| {
+                    sum += weight
+                        * match v {
+                            Variable::Unknown(i) => seeds.y[(i, j)],
+                            Variable::Rate(i) => seeds.yd[(i, j)],
+                            Variable::Input(i) => seeds.u[(i, j)],
+                            Variable::Output(i) => d_outputs[(i, j)],
+                        };
+                });
+                sum
             }
         }
     }
@@ -419,5 +423,20 @@ impl AlgebraicProblem for TrimProblem<'_> {
         }
         self.collect_jacobian(jacobian);
         Ok(())
+    }
+    fn product(&mut self, x: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        self.load(x);
+        self.load_seeds();
+        let (mut one, mut d_residual, mut d_outputs) = std::mem::take(&mut self.along);
+        self.seeds.y.times(v, one.y.as_mut_slice());
+        self.seeds.yd.times(v, one.yd.as_mut_slice());
+        self.seeds.u.times(v, one.u.as_mut_slice());
+        let at = At { time: 0.0, y: &self.y, yd: &self.yd, u: &self.u };
+        let evaluated = self.plant.along(at, &one, (&mut self.residual, &mut self.outputs), &mut d_residual, &mut d_outputs);
+        for (entry, &row) in product.iter_mut().zip(&self.rows) {
+            *entry = self.row_along(row, 0, (&one, &d_residual, &d_outputs));
+        }
+        self.along = (one, d_residual, d_outputs);
+        evaluated
     }
 }

@@ -13,6 +13,7 @@ fn outcome(time: f64) -> IntegrationOutcome {
         convergence_failures: 0,
         residuals: 0,
         jacobians: 0,
+        products: 0,
         iterations: 0,
     }
 }

@@ -5,7 +5,7 @@
 
 mod systems;
 
-use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, EvalError, Matrix};
+use problem::{AlgebraicEnding, AlgebraicMethod, AlgebraicOptions, AlgebraicOutcome, AlgebraicProblem, Bound, Effort, EvalError, Matrix};
 pub use systems::*;
 
 type Function = fn(&[f64], &mut [f64]) -> Result<(), EvalError>;
@@ -22,13 +22,24 @@ pub struct Classic {
     bounds: Vec<Bound>,
     residuals: usize,
     jacobians: usize,
+    products: usize,
 }
 
 impl Classic {
     fn new(start: &[f64], function: Function, derivative: Derivative) -> Self {
         let ones = vec![1.0; start.len()];
         let (unknown_scale, equation_scale) = (ones.clone(), ones);
-        Self { function, derivative, start: start.to_vec(), unknown_scale, equation_scale, bounds: Vec::new(), residuals: 0, jacobians: 0 }
+        Self {
+            function,
+            derivative,
+            start: start.to_vec(),
+            unknown_scale,
+            equation_scale,
+            bounds: Vec::new(),
+            residuals: 0,
+            jacobians: 0,
+            products: 0,
+        }
     }
 
     fn scaled(mut self, unknowns: &[f64], equations: &[f64]) -> Self {
@@ -51,7 +62,8 @@ impl Classic {
     pub fn solve(mut self, method: &mut dyn AlgebraicMethod, options: &AlgebraicOptions) -> (AlgebraicOutcome, Vec<f64>) {
         let mut x = self.start();
         let outcome = method.solve(&mut self, &mut x, options);
-        assert_eq!((outcome.residuals, outcome.jacobians), (self.residuals, self.jacobians), "{outcome:?}");
+        let Effort { residuals, jacobians, products, .. } = outcome.effort;
+        assert_eq!((residuals, jacobians, products), (self.residuals, self.jacobians, self.products), "{outcome:?}");
         let mut f = vec![0.0; x.len()];
         if self.residual(&x, &mut f).is_ok() && f.iter().all(|f| f.is_finite()) {
             let residual = f.iter().zip(&self.equation_scale).map(|(f, scale)| f.abs() / scale).fold(0.0, f64::max);
@@ -84,6 +96,14 @@ impl AlgebraicProblem for Classic {
         (self.function)(x, f)?;
         jacobian.fill(0.0);
         (self.derivative)(x, jacobian);
+        Ok(())
+    }
+    fn product(&mut self, x: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError> {
+        self.products += 1;
+        let mut jacobian = Matrix::zeros(v.len(), v.len());
+        (self.function)(x, product)?;
+        (self.derivative)(x, &mut jacobian);
+        jacobian.times(v, product);
         Ok(())
     }
 }
@@ -140,7 +160,7 @@ pub fn units_do_not_matter(method: &mut dyn AlgebraicMethod) {
     let (plain, _) = rosenbrock().solve(method, &options);
     let (scaled, x) = rosenbrock_in_other_units().solve(method, &options);
     assert!(scaled.converged());
-    assert_eq!((plain.iterations, plain.residuals), (scaled.iterations, scaled.residuals));
+    assert_eq!((plain.effort.iterations, plain.effort.residuals), (scaled.effort.iterations, scaled.effort.residuals));
     close(x[0], 1e-6, 1e-14);
     close(x[1], 1e9, 10.0);
 }
@@ -165,7 +185,7 @@ pub fn failures_are_named(method: &mut dyn AlgebraicMethod) {
     assert_eq!(broken, (AlgebraicEnding::Evaluation(EvalError::Fatal { equation: 0 }), vec![0.0]));
     let hurried = AlgebraicOptions { max_iterations: 2, ..AlgebraicOptions::default() };
     let (outcome, _) = powell_badly_scaled().solve(method, &hurried);
-    assert_eq!((outcome.ending, outcome.iterations), (AlgebraicEnding::MaxIterations, 2));
+    assert_eq!((outcome.ending, outcome.effort.iterations), (AlgebraicEnding::MaxIterations, 2));
 }
 
 /// A local minimum of ‖f‖ is not taken for a solution.

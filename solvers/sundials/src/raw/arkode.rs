@@ -4,11 +4,11 @@
 //! `arkode_erkstep.h`, `arkode_arkstep.h` and `arkode_ls.h` of SUNDIALS 7.1.1.
 
 use super::context::Context;
-use super::dense::{DenseSolver, matrix_entries_mut};
 use super::integrator::{count, length};
+use super::linear::{Linear, Preconditioned, matrix_entries_mut};
 use super::vector::{Vector, entries, entries_mut};
 use crate::guard::Guard;
-use problem::{EvalError, IntegrationEnding};
+use problem::{EvalError, IntegrationEnding, LinearSolver};
 use std::ffi::{CStr, c_char, c_int, c_long, c_void};
 use std::ptr;
 use sundials_sys::{N_Vector, SUNContext, SUNLinearSolver, SUNMatrix};
@@ -31,6 +31,9 @@ const ARK_POSTPROCESS_STEP_FAIL: c_int = -37;
 
 type Rates = extern "C" fn(f64, N_Vector, N_Vector, *mut c_void) -> c_int;
 type Jacobian = extern "C" fn(f64, N_Vector, N_Vector, SUNMatrix, *mut c_void, N_Vector, N_Vector, N_Vector) -> c_int;
+type Product = extern "C" fn(N_Vector, N_Vector, f64, N_Vector, N_Vector, *mut c_void, N_Vector) -> c_int;
+/// Called before products at a new point.
+type ProductSetup = extern "C" fn(f64, N_Vector, N_Vector, *mut c_void) -> c_int;
 type Postprocess = extern "C" fn(f64, N_Vector, *mut c_void) -> c_int;
 
 unsafe extern "C" {
@@ -42,6 +45,7 @@ unsafe extern "C" {
     fn ARKStepSetTableName(memory: *mut c_void, implicit: *const c_char, explicit: *const c_char) -> c_int;
     fn ARKodeSetLinearSolver(memory: *mut c_void, solver: SUNLinearSolver, matrix: SUNMatrix) -> c_int;
     fn ARKodeSetJacFn(memory: *mut c_void, jacobian: Option<Jacobian>) -> c_int;
+    fn ARKodeSetJacTimes(memory: *mut c_void, setup: Option<ProductSetup>, product: Option<Product>) -> c_int;
     fn ARKodeReset(memory: *mut c_void, time: f64, y: N_Vector) -> c_int;
     fn ARKodeSVtolerances(memory: *mut c_void, relative: f64, absolute: N_Vector) -> c_int;
     fn ARKodeSetInterpolantType(memory: *mut c_void, kind: c_int) -> c_int;
@@ -65,6 +69,8 @@ pub trait System {
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
     /// Writes ∂f/∂y, column after column.
     fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes the product of that with v.
+    fn product(&mut self, time: f64, y: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError>;
     /// Finishes a step that passed the error test; it may move y.
     fn accept(&mut self, time: f64, y: &mut [f64]) -> Result<(), EvalError>;
 }
@@ -92,7 +98,7 @@ pub enum Step {
 pub struct Memory {
     raw: *mut c_void,
     table: Table,
-    _dense: Option<DenseSolver>,
+    linear: Option<Linear>,
     y: Vector,
     tolerance: Vector,
     context: Context,
@@ -110,14 +116,14 @@ struct Call<'a> {
 
 impl Memory {
     /// An integrator for `size` unknowns, `size` above zero.
-    pub fn new(size: usize, table: Table) -> Self {
+    pub fn new(size: usize, table: Table, linear: LinearSolver) -> Self {
         assert!(size > 0, "a system of equations has at least one unknown");
         let context = Context::new();
         let y = Vector::zeros(&context, size);
         let tolerance = Vector::zeros(&context, size);
         // SAFETY: context, vectors, matrix and linear solver are alive and are owned by the result.
-        let (raw, dense) = unsafe {
-            let (raw, dense) = match table {
+        let (raw, linear) = unsafe {
+            let (raw, linear) = match table {
                 Table::Explicit(name) => {
                     let raw = ERKStepCreate(rates, 0.0, y.raw(), context.raw());
                     assert!(!raw.is_null(), "out of memory while creating an ARKODE integrator");
@@ -128,10 +134,14 @@ impl Memory {
                     let raw = ARKStepCreate(None, Some(rates), 0.0, y.raw(), context.raw());
                     assert!(!raw.is_null(), "out of memory while creating an ARKODE integrator");
                     accept(ARKStepSetTableName(raw, name.as_ptr(), c"ARKODE_ERK_NONE".as_ptr()), &context);
-                    let dense = DenseSolver::new(&context, &y);
-                    accept(ARKodeSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
-                    accept(ARKodeSetJacFn(raw, Some(jacobian)), &context);
-                    (raw, Some(dense))
+                    let linear = Linear::new(linear, Preconditioned::No, &context, &y);
+                    accept(ARKodeSetLinearSolver(raw, linear.solver(), linear.matrix()), &context);
+                    let told = match linear.kind() {
+                        LinearSolver::Direct => ARKodeSetJacFn(raw, Some(jacobian)),
+                        LinearSolver::Gmres => ARKodeSetJacTimes(raw, None, Some(product)),
+                    };
+                    accept(told, &context);
+                    (raw, Some(linear))
                 }
             };
             // nothing is interpolated: the polynomials have degree five at most
@@ -139,14 +149,19 @@ impl Memory {
             accept(ARKodeSetPostprocessStepFn(raw, Some(accepted)), &context);
             // they would be printed
             accept(ARKodeSetMaxHnilWarns(raw, -1), &context);
-            (raw, dense)
+            (raw, linear)
         };
-        Self { raw, table, _dense: dense, y, tolerance, context }
+        Self { raw, table, linear, y, tolerance, context }
     }
 
     /// Number of unknowns.
     pub fn size(&self) -> usize {
         self.y.as_slice().len()
+    }
+
+    /// What solves the linear equations of a step; `None` where there are none.
+    pub fn linear(&self) -> Option<LinearSolver> {
+        self.linear.as_ref().map(Linear::kind)
     }
 
     /// State at the end of the last step taken.
@@ -208,6 +223,7 @@ impl Memory {
                 | ARK_UNREC_RHSFUNC_ERR
                 | ARK_CONV_FAILURE
                 | ARK_LSETUP_FAIL
+                | ARK_LSOLVE_FAIL
                 | ARK_POSTPROCESS_STEP_FAIL,
                 Some(error),
             ) => match error {
@@ -216,6 +232,7 @@ impl Memory {
             },
             (ARK_ERR_FAILURE, _) => Step::Failed(IntegrationEnding::ErrorTest),
             (ARK_CONV_FAILURE, None) => Step::Failed(IntegrationEnding::Convergence),
+            (ARK_LSOLVE_FAIL, None) if self.linear() == Some(LinearSolver::Gmres) => Step::Failed(IntegrationEnding::Convergence),
             (ARK_LSETUP_FAIL | ARK_LSOLVE_FAIL, _) => Step::Failed(IntegrationEnding::Singular),
             (ARK_ILL_INPUT | ARK_TOO_MUCH_ACC, _) => Step::Failed(IntegrationEnding::Refused),
             (refusal, _) => panic!("ARKODE refused with code {refusal}: {}", self.context.message()),
@@ -277,6 +294,13 @@ extern "C" fn jacobian(
     let (call, y, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), matrix_entries_mut(matrix)) };
     let system = &mut *call.system;
     call.guard.run(|| system.jacobian(time, y, matrix))
+}
+
+extern "C" fn product(v: N_Vector, product: N_Vector, time: f64, y: N_Vector, _yd: N_Vector, call: *mut c_void, _: N_Vector) -> c_int {
+    // SAFETY: ARKODE passes the pointer set in `step` and different serial vectors, and leaves them alone meanwhile.
+    let (call, y, v, product) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries(v), entries_mut(product)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.product(time, y, v, product))
 }
 
 extern "C" fn accepted(time: f64, y: N_Vector, call: *mut c_void) -> c_int {

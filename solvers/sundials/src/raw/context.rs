@@ -4,7 +4,9 @@ use std::cell::RefCell;
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr;
 use std::rc::Rc;
-use sundials_sys::{SUNContext, SUNContext_ClearErrHandlers, SUNContext_Create, SUNContext_Free, SUNContext_PushErrHandler};
+use sundials_sys::{
+    SUNContext, SUNContext_ClearErrHandlers, SUNContext_Create, SUNContext_Free, SUNContext_PushErrHandler, SUNContext_SetLogger,
+};
 
 /// Owner of one `SUNContext`; clones share it and the last one frees it.
 #[derive(Clone)]
@@ -26,6 +28,8 @@ impl Context {
             let failed = SUNContext_Create(sundials_sys::SUN_COMM_NULL, &mut raw);
             assert!(failed == 0 && !raw.is_null(), "out of memory while creating a SUNDIALS context");
             SUNContext_ClearErrHandlers(raw);
+            // warnings go past the handlers and would be printed
+            SUNContext_SetLogger(raw, ptr::null_mut());
             SUNContext_PushErrHandler(raw, Some(keep_message), ptr::from_ref(&*message).cast_mut().cast());
         }
         Self(Rc::new(Inner { raw, message }))

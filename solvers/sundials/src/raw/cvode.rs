@@ -1,21 +1,21 @@
 //! One CVODE integrator of fixed size, with everything that it refers to.
 
 use super::context::Context;
-use super::dense::{DenseSolver, matrix_entries_mut};
-use super::integrator::{self, Request, Statistics, count, length};
+use super::integrator::{self, Request, Slot, Statistics, count, length};
+use super::linear::{Linear, Preconditioned, matrix_entries_mut};
 use super::vector::{Vector, entries, entries_mut};
-use problem::{EvalError, IntegrationEnding};
+use problem::{EvalError, IntegrationEnding, LinearSolver};
 use std::ffi::{c_int, c_void};
-use std::{ptr, slice};
+use std::slice;
 use sundials_sys::{
     CV_ADAMS, CV_BDF, CV_CONV_FAILURE, CV_ERR_FAILURE, CV_FIRST_RHSFUNC_ERR, CV_ILL_INPUT, CV_LSETUP_FAIL, CV_LSOLVE_FAIL, CV_NORMAL,
     CV_PROJFUNC_FAIL, CV_REPTD_PROJFUNC_ERR, CV_REPTD_RHSFUNC_ERR, CV_RHSFUNC_FAIL, CV_ROOT_RETURN, CV_RTFUNC_FAIL, CV_SUCCESS,
     CV_TOO_CLOSE, CV_TOO_MUCH_ACC, CV_TOO_MUCH_WORK, CV_TSTOP_RETURN, CV_UNREC_RHSFUNC_ERR, CVode, CVodeCreate, CVodeFree,
     CVodeGetCurrentStep, CVodeGetCurrentTime, CVodeGetDky, CVodeGetNumErrTestFails, CVodeGetNumNonlinSolvIters, CVodeGetNumStepSolveFails,
     CVodeGetNumSteps, CVodeGetRootInfo, CVodeInit, CVodeReInit, CVodeRootInit, CVodeSVtolerances, CVodeSetInitStep, CVodeSetJacFn,
-    CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn, CVodeSetNonlinearSolver,
-    CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNMatrix, SUNNonlinSol_FixedPoint, SUNNonlinSolFree,
-    SUNNonlinearSolver,
+    CVodeSetJacTimes, CVodeSetLinearSolver, CVodeSetMaxHnilWarns, CVodeSetMaxNumSteps, CVodeSetMaxStep, CVodeSetNoInactiveRootWarn,
+    CVodeSetNonlinearSolver, CVodeSetProjErrEst, CVodeSetProjFn, CVodeSetStopTime, CVodeSetUserData, N_Vector, SUNMatrix,
+    SUNNonlinSol_FixedPoint, SUNNonlinSolFree, SUNNonlinearSolver,
 };
 
 /// What CVODE calls back.
@@ -24,6 +24,8 @@ pub trait System {
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError>;
     /// Writes ∂f/∂y, column after column.
     fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes the product of that with v.
+    fn product(&mut self, time: f64, y: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError>;
     /// Writes what leads from y to the nearest point of the manifold.
     fn correction(&mut self, time: f64, y: &[f64], correction: &mut [f64]) -> Result<(), EvalError>;
     /// Writes the event functions.
@@ -45,13 +47,14 @@ pub struct Memory {
     y: Vector,
     tolerance: Vector,
     found: Vec<c_int>,
-    _solver: Solver,
+    slot: Slot,
+    solver: Solver,
     context: Context,
 }
 
 /// What solves the equations of a step.
 enum Solver {
-    Newton { _dense: DenseSolver },
+    Newton(Linear),
     Functional(SUNNonlinearSolver),
 }
 
@@ -72,25 +75,31 @@ type Call<'a> = integrator::Call<'a, dyn System + 'a>;
 
 impl Memory {
     /// An integrator for `size` unknowns, `size` above zero.
-    pub fn new(size: usize, family: Family) -> Self {
+    pub fn new(size: usize, family: Family, linear: LinearSolver) -> Self {
         assert!(size > 0, "a system of equations has at least one unknown");
         let context = Context::new();
         let y = Vector::zeros(&context, size);
         let tolerance = Vector::zeros(&context, size);
+        let slot = Slot::new();
         // SAFETY: context, vectors and solvers are alive and are owned by the result.
         let (raw, solver) = unsafe {
             let raw = CVodeCreate(if family == Family::Bdf { CV_BDF } else { CV_ADAMS }, context.raw());
             assert!(!raw.is_null(), "out of memory while creating a CVODE integrator");
+            accept(CVodeSetUserData(raw, slot.raw()), &context);
             accept(CVodeInit(raw, Some(rates), 0.0, y.raw()), &context);
             let solver = match family {
                 Family::Bdf => {
-                    let dense = DenseSolver::new(&context, &y);
-                    accept(CVodeSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
-                    accept(CVodeSetJacFn(raw, Some(jacobian)), &context);
+                    let linear = Linear::new(linear, Preconditioned::No, &context, &y);
+                    accept(CVodeSetLinearSolver(raw, linear.solver(), linear.matrix()), &context);
+                    let told = match linear.kind() {
+                        LinearSolver::Direct => CVodeSetJacFn(raw, Some(jacobian)),
+                        LinearSolver::Gmres => CVodeSetJacTimes(raw, None, Some(product)),
+                    };
+                    accept(told, &context);
                     accept(CVodeSetProjFn(raw, Some(correction)), &context);
                     // the estimate of the error stays as it is
                     accept(CVodeSetProjErrEst(raw, 0), &context);
-                    Solver::Newton { _dense: dense }
+                    Solver::Newton(linear)
                 }
                 Family::Adams => {
                     let functional = SUNNonlinSol_FixedPoint(y.raw(), 0, context.raw());
@@ -104,7 +113,15 @@ impl Memory {
             accept(CVodeSetMaxHnilWarns(raw, -1), &context);
             (raw, solver)
         };
-        Self { raw, y, tolerance, found: Vec::new(), _solver: solver, context }
+        Self { raw, y, tolerance, found: Vec::new(), slot, solver, context }
+    }
+
+    /// What solves the linear equations of a step; `None` where there are none.
+    pub fn linear(&self) -> Option<LinearSolver> {
+        match &self.solver {
+            Solver::Newton(linear) => Some(linear.kind()),
+            Solver::Functional(_) => None,
+        }
     }
 
     /// State at the time reached.
@@ -142,13 +159,8 @@ impl Memory {
         let mut call = Call::new(system, self.found.len(), self.raw);
         // where CVODE refuses the call it reports no time
         let mut reached = self.time();
-        // SAFETY: all handles are owned by self; `call` outlives CVode and is forgotten by CVODE right after it.
-        let code = unsafe {
-            accept(CVodeSetUserData(self.raw, ptr::from_mut(&mut call).cast()), &self.context);
-            let code = CVode(self.raw, time, self.y.raw(), &mut reached, CV_NORMAL);
-            CVodeSetUserData(self.raw, ptr::null_mut());
-            code
-        };
+        // SAFETY: all handles are owned by self; the slot lends `call` as long as CVode runs.
+        let code = self.slot.lend(&mut call, || unsafe { CVode(self.raw, time, self.y.raw(), &mut reached, CV_NORMAL) });
         let Call { stuck, guard, .. } = call;
         let error = guard.release();
         if stuck.for_ever() && !stuck.failed {
@@ -190,6 +202,7 @@ impl Memory {
             CV_TOO_MUCH_WORK => IntegrationEnding::TooManySteps,
             CV_ERR_FAILURE => IntegrationEnding::ErrorTest,
             CV_CONV_FAILURE | CV_LSETUP_FAIL => evaluation(IntegrationEnding::Convergence),
+            CV_LSOLVE_FAIL if self.linear() == Some(LinearSolver::Gmres) => evaluation(IntegrationEnding::Convergence),
             CV_LSOLVE_FAIL => IntegrationEnding::Singular,
             CV_RHSFUNC_FAIL
             | CV_FIRST_RHSFUNC_ERR
@@ -223,9 +236,9 @@ fn accept(code: c_int, context: &Context) {
     assert!(code == CV_SUCCESS, "CVODE refused its set-up with code {code}: {}", context.message());
 }
 
-extern "C" fn rates(time: f64, y: N_Vector, yd: N_Vector, call: *mut c_void) -> c_int {
-    // SAFETY: CVODE passes the pointer set in `advance` and two different serial vectors that it leaves alone meanwhile.
-    let (call, y, yd) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries_mut(yd)) };
+extern "C" fn rates(time: f64, y: N_Vector, yd: N_Vector, slot: *mut c_void) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; CVODE passes two different serial vectors that it leaves alone meanwhile.
+    let (call, y, yd) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), entries_mut(yd)) };
     // SAFETY: the integrator that calls.
     let step = unsafe { length(call.memory, CVodeGetCurrentStep) };
     call.evaluate(time, step, |system| system.rates(time, y, yd))
@@ -236,28 +249,35 @@ extern "C" fn jacobian(
     y: N_Vector,
     _yd: N_Vector,
     matrix: SUNMatrix,
-    call: *mut c_void,
+    slot: *mut c_void,
     _: N_Vector,
     _: N_Vector,
     _: N_Vector,
 ) -> c_int {
-    // SAFETY: CVODE passes the pointer set in `advance`, a serial vector and the dense matrix, and leaves them alone meanwhile.
-    let (call, y, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), matrix_entries_mut(matrix)) };
+    // SAFETY: `advance` lends the call through the slot; CVODE passes a serial vector and the dense matrix, and leaves them alone meanwhile.
+    let (call, y, matrix) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), matrix_entries_mut(matrix)) };
     let system = &mut *call.system;
     call.guard.run(|| system.jacobian(time, y, matrix))
 }
 
-extern "C" fn correction(time: f64, y: N_Vector, correction: N_Vector, _tolerance: f64, _error: N_Vector, call: *mut c_void) -> c_int {
-    // SAFETY: CVODE passes the pointer set in `advance` and two different serial vectors that it leaves alone meanwhile.
-    let (call, y, correction) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries_mut(correction)) };
+extern "C" fn product(v: N_Vector, product: N_Vector, time: f64, y: N_Vector, _yd: N_Vector, slot: *mut c_void, _: N_Vector) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; CVODE passes different serial vectors, and leaves them alone meanwhile.
+    let (call, y, v, product) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), entries(v), entries_mut(product)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.product(time, y, v, product))
+}
+
+extern "C" fn correction(time: f64, y: N_Vector, correction: N_Vector, _tolerance: f64, _error: N_Vector, slot: *mut c_void) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; CVODE passes two different serial vectors that it leaves alone meanwhile.
+    let (call, y, correction) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), entries_mut(correction)) };
     let system = &mut *call.system;
     call.guard.run(|| system.correction(time, y, correction))
 }
 
-extern "C" fn event_functions(time: f64, y: N_Vector, values: *mut f64, call: *mut c_void) -> c_int {
-    // SAFETY: CVODE passes the pointer set in `advance`, a serial vector and an array of as many entries as there are events.
+extern "C" fn event_functions(time: f64, y: N_Vector, values: *mut f64, slot: *mut c_void) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; CVODE passes a serial vector and an array of as many entries as there are events.
     let (call, y, values) = unsafe {
-        let call = &mut *call.cast::<Call<'_>>();
+        let call = Slot::lent::<Call<'_>>(slot);
         let events = call.events;
         (call, entries(y), slice::from_raw_parts_mut(values, events))
     };

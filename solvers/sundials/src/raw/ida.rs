@@ -1,20 +1,25 @@
 //! One IDA integrator of fixed size, with everything that it refers to.
 
 use super::context::Context;
-use super::dense::{DenseSolver, matrix_entries_mut};
-use super::integrator::{self, Request, Statistics, count, length};
+use super::integrator::{self, Request, Slot, Statistics, count, length};
+use super::linear::{Linear, Preconditioned, matrix_entries_mut};
 use super::vector::{Vector, entries, entries_mut};
-use problem::{EvalError, IntegrationEnding};
+use crate::guard::RECOVERABLE;
+use problem::{EvalError, IntegrationEnding, LinearSolver};
 use std::ffi::{c_int, c_long, c_void};
-use std::{ptr, slice};
+use std::slice;
 use sundials_sys::{
     IDA_CONV_FAIL, IDA_ERR_FAIL, IDA_ILL_INPUT, IDA_LSETUP_FAIL, IDA_LSOLVE_FAIL, IDA_NORMAL, IDA_REP_RES_ERR, IDA_RES_FAIL,
     IDA_ROOT_RETURN, IDA_RTFUNC_FAIL, IDA_SUCCESS, IDA_TOO_MUCH_ACC, IDA_TOO_MUCH_WORK, IDA_TSTOP_RETURN, IDACreate, IDAFree,
     IDAGetCurrentStep, IDAGetCurrentTime, IDAGetDky, IDAGetLastLinFlag, IDAGetNumErrTestFails, IDAGetNumNonlinSolvIters,
     IDAGetNumStepSolveFails, IDAGetNumSteps, IDAGetRootInfo, IDAInit, IDALS_JACFUNC_RECVR, IDALS_JACFUNC_UNRECVR, IDAReInit, IDARootInit,
-    IDASVtolerances, IDASetId, IDASetInitStep, IDASetJacFn, IDASetLinearSolver, IDASetMaxNumSteps, IDASetMaxStep, IDASetNoInactiveRootWarn,
-    IDASetStopTime, IDASetSuppressAlg, IDASetUserData, IDASolve, N_Vector, SUNMatrix,
+    IDASVtolerances, IDASetId, IDASetInitStep, IDASetJacFn, IDASetJacTimes, IDASetLinearSolver, IDASetMaxNumSteps, IDASetMaxStep,
+    IDASetNoInactiveRootWarn, IDASetPreconditioner, IDASetStopTime, IDASetSuppressAlg, IDASetUserData, IDASolve, N_Vector,
+    SUNLS_PSET_FAIL_REC, SUNMatrix,
 };
+
+/// What IDA keeps where a preconditioner could not be made.
+const PREPARATION_FAILED: c_int = SUNLS_PSET_FAIL_REC as c_int;
 
 /// What IDA calls back.
 pub trait System {
@@ -22,6 +27,12 @@ pub trait System {
     fn residual(&mut self, time: f64, y: &[f64], yd: &[f64], residual: &mut [f64]) -> Result<(), EvalError>;
     /// Writes ∂F/∂y + c ∂F/∂ẏ, column after column.
     fn jacobian(&mut self, time: f64, c: f64, y: &[f64], yd: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes the product of that with v.
+    fn product(&mut self, at: (f64, f64), state: (&[f64], &[f64]), v: &[f64], product: &mut [f64]) -> Result<(), EvalError>;
+    /// Makes the preconditioner for a point and those near it. False where its matrix is singular.
+    fn prepare(&mut self, time: f64, c: f64, y: &[f64], yd: &[f64]) -> Result<bool, EvalError>;
+    /// Writes P⁻¹ r.
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]);
     /// Writes the event functions.
     fn events(&mut self, time: f64, y: &[f64], yd: &[f64], values: &mut [f64]) -> Result<(), EvalError>;
 }
@@ -34,7 +45,8 @@ pub struct Memory {
     tolerance: Vector,
     differential: Vector,
     found: Vec<c_int>,
-    _dense: DenseSolver,
+    slot: Slot,
+    linear: Linear,
     context: Context,
 }
 
@@ -46,28 +58,42 @@ type Call<'a> = integrator::Call<'a, dyn System + 'a>;
 
 impl Memory {
     /// An integrator for `size` unknowns, `size` above zero.
-    pub fn new(size: usize) -> Self {
+    pub fn new(size: usize, linear: LinearSolver) -> Self {
         assert!(size > 0, "a system of equations has at least one unknown");
         let context = Context::new();
         let zeros = || Vector::zeros(&context, size);
         let (y, yd, tolerance, differential) = (zeros(), zeros(), zeros(), zeros());
-        let dense = DenseSolver::new(&context, &y);
+        let linear = Linear::new(linear, Preconditioned::Left, &context, &y);
+        let slot = Slot::new();
         // SAFETY: context, vectors, matrix and linear solver are alive and are owned by the result.
         let raw = unsafe {
             let raw = IDACreate(context.raw());
             assert!(!raw.is_null(), "out of memory while creating an IDA integrator");
+            accept(IDASetUserData(raw, slot.raw()), &context);
             accept(IDAInit(raw, Some(residual), 0.0, y.raw(), yd.raw()), &context);
-            accept(IDASetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
-            accept(IDASetJacFn(raw, Some(jacobian)), &context);
+            accept(IDASetLinearSolver(raw, linear.solver(), linear.matrix()), &context);
+            let told = match linear.kind() {
+                LinearSolver::Direct => IDASetJacFn(raw, Some(jacobian)),
+                LinearSolver::Gmres => {
+                    accept(IDASetPreconditioner(raw, Some(prepare), Some(precondition)), &context);
+                    IDASetJacTimes(raw, None, Some(product))
+                }
+            };
+            accept(told, &context);
             accept(IDASetNoInactiveRootWarn(raw), &context);
             raw
         };
-        Self { raw, y, yd, tolerance, differential, found: Vec::new(), _dense: dense, context }
+        Self { raw, y, yd, tolerance, differential, found: Vec::new(), slot, linear, context }
     }
 
     /// Number of unknowns.
     pub fn size(&self) -> usize {
         self.y.as_slice().len()
+    }
+
+    /// What solves the linear equations of a step.
+    pub fn linear(&self) -> LinearSolver {
+        self.linear.kind()
     }
 
     /// Unknowns and their rates: those of the start, to be written before it; afterwards those of the time reached.
@@ -118,13 +144,8 @@ impl Memory {
         let mut call = Call::new(system, self.found.len(), self.raw);
         // where IDA refuses the call it reports no time
         let mut reached = self.time();
-        // SAFETY: all handles are owned by self; `call` outlives IDASolve and is forgotten by IDA right after it.
-        let code = unsafe {
-            accept(IDASetUserData(self.raw, ptr::from_mut(&mut call).cast()), &self.context);
-            let code = IDASolve(self.raw, time, &mut reached, self.y.raw(), self.yd.raw(), IDA_NORMAL);
-            IDASetUserData(self.raw, ptr::null_mut());
-            code
-        };
+        // SAFETY: all handles are owned by self; the slot lends `call` as long as IDASolve runs.
+        let code = self.slot.lend(&mut call, || unsafe { IDASolve(self.raw, time, &mut reached, self.y.raw(), self.yd.raw(), IDA_NORMAL) });
         let Call { stuck, guard, .. } = call;
         let error = guard.release();
         if stuck.for_ever() && !stuck.failed {
@@ -175,6 +196,11 @@ impl Memory {
             IDA_ROOT_RETURN => self.event(),
             IDA_TOO_MUCH_WORK => IntegrationEnding::TooManySteps,
             IDA_ERR_FAIL => IntegrationEnding::ErrorTest,
+            IDA_CONV_FAIL | IDA_LSETUP_FAIL | IDA_LSOLVE_FAIL if self.linear() == LinearSolver::Gmres => match self.linear_flag() {
+                // its preconditioner has no LU factors, or could not be evaluated
+                PREPARATION_FAILED => evaluation(IntegrationEnding::Singular),
+                _ => evaluation(IntegrationEnding::Convergence),
+            },
             IDA_CONV_FAIL | IDA_LSETUP_FAIL | IDA_LSOLVE_FAIL => match self.linear_flag() {
                 IDALS_JACFUNC_RECVR | IDALS_JACFUNC_UNRECVR => evaluation(IntegrationEnding::Convergence),
                 0 => IntegrationEnding::Convergence,
@@ -214,9 +240,9 @@ fn accept(code: c_int, context: &Context) {
     assert!(code == IDA_SUCCESS, "IDA refused its set-up with code {code}: {}", context.message());
 }
 
-extern "C" fn residual(time: f64, y: N_Vector, yd: N_Vector, residual: N_Vector, call: *mut c_void) -> c_int {
-    // SAFETY: IDA passes the pointer set in `advance` and three different serial vectors that it leaves alone meanwhile.
-    let (call, y, yd, residual) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries(yd), entries_mut(residual)) };
+extern "C" fn residual(time: f64, y: N_Vector, yd: N_Vector, residual: N_Vector, slot: *mut c_void) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; IDA passes three different serial vectors that it leaves alone meanwhile.
+    let (call, y, yd, residual) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), entries(yd), entries_mut(residual)) };
     // SAFETY: the integrator that calls.
     let step = unsafe { length(call.memory, IDAGetCurrentStep) };
     call.evaluate(time, step, |system| system.residual(time, y, yd, residual))
@@ -229,21 +255,68 @@ extern "C" fn jacobian(
     yd: N_Vector,
     _residual: N_Vector,
     matrix: SUNMatrix,
-    call: *mut c_void,
+    slot: *mut c_void,
     _: N_Vector,
     _: N_Vector,
     _: N_Vector,
 ) -> c_int {
-    // SAFETY: IDA passes the pointer set in `advance`, serial vectors and the dense matrix, and leaves them alone meanwhile.
-    let (call, y, yd, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(y), entries(yd), matrix_entries_mut(matrix)) };
+    // SAFETY: `advance` lends the call through the slot; IDA passes serial vectors and the dense matrix, and leaves them alone meanwhile.
+    let (call, y, yd, matrix) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), entries(yd), matrix_entries_mut(matrix)) };
     let system = &mut *call.system;
     call.guard.run(|| system.jacobian(time, c, y, yd, matrix))
 }
 
-extern "C" fn event_functions(time: f64, y: N_Vector, yd: N_Vector, values: *mut f64, call: *mut c_void) -> c_int {
-    // SAFETY: IDA passes the pointer set in `advance`, two serial vectors and an array of as many entries as there are events.
+extern "C" fn product(
+    time: f64,
+    y: N_Vector,
+    yd: N_Vector,
+    _residual: N_Vector,
+    v: N_Vector,
+    product: N_Vector,
+    c: f64,
+    slot: *mut c_void,
+    _: N_Vector,
+    _: N_Vector,
+) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; IDA passes different serial vectors, and leaves them alone meanwhile.
+    let (call, y, yd, v, product) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), entries(yd), entries(v), entries_mut(product)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.product((time, c), (y, yd), v, product))
+}
+
+extern "C" fn prepare(time: f64, y: N_Vector, yd: N_Vector, _residual: N_Vector, c: f64, slot: *mut c_void) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; IDA passes serial vectors, and leaves them alone meanwhile.
+    let (call, y, yd) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(y), entries(yd)) };
+    let system = &mut *call.system;
+    let mut regular = false;
+    let code = call.guard.run(|| system.prepare(time, c, y, yd).map(|found| regular = found));
+    if code == 0 && !regular { RECOVERABLE } else { code }
+}
+
+extern "C" fn precondition(
+    _time: f64,
+    _y: N_Vector,
+    _yd: N_Vector,
+    _residual: N_Vector,
+    r: N_Vector,
+    z: N_Vector,
+    _c: f64,
+    _tolerance: f64,
+    slot: *mut c_void,
+) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; IDA passes two different serial vectors that it leaves alone meanwhile.
+    let (call, r, z) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(r), entries_mut(z)) };
+    let system = &mut *call.system;
+    call.guard.run(|| {
+        system.precondition(r, z);
+        Ok(())
+    })
+}
+
+extern "C" fn event_functions(time: f64, y: N_Vector, yd: N_Vector, values: *mut f64, slot: *mut c_void) -> c_int {
+    // SAFETY: `advance` lends the call through the slot; IDA passes two serial vectors and an array of as many entries as there are events.
     let (call, y, yd, values) = unsafe {
-        let call = &mut *call.cast::<Call<'_>>();
+        let call = Slot::lent::<Call<'_>>(slot);
         let events = call.events;
         (call, entries(y), entries(yd), slice::from_raw_parts_mut(values, events))
     };

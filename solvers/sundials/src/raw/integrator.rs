@@ -3,7 +3,9 @@
 use super::stuck::Stuck;
 use crate::guard::{FATAL, Guard};
 use problem::{EvalError, IntegrationEnding};
+use std::cell::Cell;
 use std::ffi::{c_int, c_long, c_void};
+use std::ptr;
 
 /// What one integration is asked for, beside the vectors that were written before.
 pub struct Request {
@@ -84,7 +86,51 @@ pub fn event(found: &[c_int]) -> IntegrationEnding {
     IntegrationEnding::Event { event, rising: found[event] > 0 }
 }
 
-/// What the callbacks find behind the user data pointer while an integrator runs.
+/// Where the user data pointer of an integrator leads, and from there to what one call into the library needs.
+///
+/// IDA and CVODE copy the pointer when they begin an integration and hand the copy to functions of their linear solvers in all later calls, so
+/// it must not change from one call to the next.
+pub struct Slot(*mut Cell<*mut c_void>);
+
+impl Slot {
+    /// An empty one.
+    pub fn new() -> Self {
+        Self(Box::into_raw(Box::new(Cell::new(ptr::null_mut()))))
+    }
+
+    /// The user data pointer.
+    pub fn raw(&self) -> *mut c_void {
+        self.0.cast()
+    }
+
+    /// Leads to `call` while `body` runs.
+    pub fn lend<T, R>(&self, call: &mut T, body: impl FnOnce() -> R) -> R {
+        // SAFETY: allocated in `new`, freed in `drop`; a cell may be written through shared pointers.
+        let cell = unsafe { &*self.0 };
+        cell.set(ptr::from_mut(call).cast());
+        let result = body();
+        cell.set(ptr::null_mut());
+        result
+    }
+
+    /// What is lent, from the user data pointer.
+    ///
+    /// # Safety
+    /// `raw` must be that of a living slot which lends a `T` at this time, and nobody else may hold a reference to it.
+    pub unsafe fn lent<'a, T>(raw: *mut c_void) -> &'a mut T {
+        // SAFETY: by the caller's promise.
+        unsafe { &mut *(*raw.cast::<Cell<*mut c_void>>()).get().cast::<T>() }
+    }
+}
+
+impl Drop for Slot {
+    fn drop(&mut self) {
+        // SAFETY: made by `Box::into_raw` and freed once.
+        drop(unsafe { Box::from_raw(self.0) });
+    }
+}
+
+/// What the callbacks find in the slot while an integrator runs.
 pub struct Call<'a, S: ?Sized> {
     /// The system.
     pub system: &'a mut S,

@@ -1,19 +1,19 @@
 //! One KINSOL solver of fixed size, with everything that it refers to.
 
 use super::context::Context;
-use super::dense::{DenseSolver, matrix_entries_mut};
+use super::linear::{Linear, Preconditioned, matrix_entries_mut};
 use super::vector::{Vector, entries, entries_mut};
 use crate::guard::{FATAL, Guard};
-use problem::EvalError;
+use problem::{EvalError, LinearSolver};
 use std::ffi::{c_int, c_long, c_void};
 use std::ptr;
 use sundials_sys::{
     KIN_FIRST_SYSFUNC_ERR, KIN_FP, KIN_INITIAL_GUESS_OK, KIN_LINESEARCH, KIN_LINESEARCH_BCFAIL, KIN_LINESEARCH_NONCONV,
     KIN_LINSOLV_NO_RECOVERY, KIN_LSETUP_FAIL, KIN_LSOLVE_FAIL, KIN_MAXITER_REACHED, KIN_MXNEWT_5X_EXCEEDED, KIN_NONE, KIN_PICARD,
     KIN_REPTD_SYSFUNC_ERR, KIN_STEP_LT_STPTOL, KIN_SUCCESS, KIN_SYSFUNC_FAIL, KINCreate, KINFree, KINGetLastLinFlag,
-    KINGetNumNonlinSolvIters, KINInit, KINLS_JACFUNC_ERR, KINSetConstraints, KINSetFuncNormTol, KINSetJacFn, KINSetLinearSolver, KINSetMAA,
-    KINSetMaxBetaFails, KINSetMaxNewtonStep, KINSetMaxSetupCalls, KINSetNoResMon, KINSetNumMaxIters, KINSetScaledStepTol, KINSetUserData,
-    KINSol, N_Vector, SUNMatrix,
+    KINGetNumNonlinSolvIters, KINInit, KINLS_JACFUNC_ERR, KINSetConstraints, KINSetFuncNormTol, KINSetJacFn, KINSetJacTimesVecFn,
+    KINSetLinearSolver, KINSetMAA, KINSetMaxBetaFails, KINSetMaxNewtonStep, KINSetMaxSetupCalls, KINSetNoResMon, KINSetNumMaxIters,
+    KINSetScaledStepTol, KINSetUserData, KINSol, N_Vector, SUNMatrix,
 };
 
 /// What KINSOL calls back.
@@ -24,6 +24,8 @@ pub trait System {
     fn fixed_point(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), EvalError>;
     /// Writes ∂f/∂x, column after column.
     fn jacobian(&mut self, x: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
+    /// Writes the product of that with v.
+    fn product(&mut self, x: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError>;
 }
 
 /// How KINSOL makes progress from far away.
@@ -34,6 +36,8 @@ pub enum Strategy {
     LineSearch,
     /// Full Newton steps, shortened only at bounds and where the residual cannot be evaluated.
     FullStep,
+    /// The first, its steps by the generalized minimal residual method: as closely as the distance from the solution asks for.
+    Krylov,
     /// Picard iteration `x − J⁻¹ f(x)` with Anderson acceleration; J is renewed every ten iterations.
     Picard,
     /// Fixed-point iteration `x − J₀⁻¹ f(x)` with Anderson acceleration, J₀ that of the start.
@@ -90,7 +94,7 @@ pub struct Memory {
     equation_weight: Vector,
     constraints: Vector,
     strategy: Strategy,
-    _dense: DenseSolver,
+    _linear: Linear,
     context: Context,
 }
 
@@ -112,7 +116,8 @@ impl Memory {
         assert!(size > 0, "a system of equations has at least one unknown");
         let context = Context::new();
         let x = Vector::zeros(&context, size);
-        let dense = DenseSolver::new(&context, &x);
+        let kind = if strategy == Strategy::Krylov { LinearSolver::Gmres } else { LinearSolver::Direct };
+        let linear = Linear::new(kind, Preconditioned::No, &context, &x);
         // SAFETY: context, vector, matrix and linear solver are alive and are owned by the result.
         let raw = unsafe {
             let raw = KINCreate(context.raw());
@@ -124,8 +129,12 @@ impl Memory {
             let function = if strategy == Strategy::FixedPoint { fixed_point } else { residual };
             accept(KINInit(raw, Some(function), x.raw()), &context);
             if strategy != Strategy::FixedPoint {
-                accept(KINSetLinearSolver(raw, dense.solver(), dense.matrix()), &context);
-                accept(KINSetJacFn(raw, Some(jacobian)), &context);
+                accept(KINSetLinearSolver(raw, linear.solver(), linear.matrix()), &context);
+                let told = match kind {
+                    LinearSolver::Direct => KINSetJacFn(raw, Some(jacobian)),
+                    LinearSolver::Gmres => KINSetJacTimesVecFn(raw, Some(product)),
+                };
+                accept(told, &context);
             }
             if matches!(strategy, Strategy::LineSearch | Strategy::FullStep) {
                 // a fresh Jacobian in every iteration; then nobody need watch whether an old one still serves
@@ -135,7 +144,7 @@ impl Memory {
             raw
         };
         let zeros = || Vector::zeros(&context, size);
-        Self { raw, x, unknown_weight: zeros(), equation_weight: zeros(), constraints: zeros(), strategy, _dense: dense, context }
+        Self { raw, x, unknown_weight: zeros(), equation_weight: zeros(), constraints: zeros(), strategy, _linear: linear, context }
     }
 
     /// Number of unknowns.
@@ -167,7 +176,7 @@ impl Memory {
     pub fn solve(&mut self, system: &mut dyn System, request: &Request) -> Report {
         let max_iterations = c_long::try_from(request.max_iterations).unwrap_or(c_long::MAX);
         let strategy = match self.strategy {
-            Strategy::LineSearch => KIN_LINESEARCH,
+            Strategy::LineSearch | Strategy::Krylov => KIN_LINESEARCH,
             Strategy::FullStep => KIN_NONE,
             Strategy::Picard => KIN_PICARD,
             Strategy::FixedPoint => KIN_FP,
@@ -255,4 +264,11 @@ extern "C" fn jacobian(x: N_Vector, _f: N_Vector, matrix: SUNMatrix, call: *mut 
     let (call, x, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), matrix_entries_mut(matrix)) };
     let system = &mut *call.system;
     call.guard.run(|| system.jacobian(x, matrix))
+}
+
+extern "C" fn product(v: N_Vector, product: N_Vector, x: N_Vector, _new: *mut c_int, call: *mut c_void) -> c_int {
+    // SAFETY: KINSOL passes the pointer set in `solve` and different serial vectors, and leaves them alone meanwhile.
+    let (call, x, v, product) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), entries(v), entries_mut(product)) };
+    let system = &mut *call.system;
+    call.guard.run(|| system.product(x, v, product))
 }

@@ -7,10 +7,10 @@
 pub mod arkode;
 mod context;
 pub mod cvode;
-pub mod dense;
 pub mod ida;
 pub mod integrator;
 pub mod kinsol;
+pub mod linear;
 mod stuck;
 mod vector;
 

@@ -4,7 +4,8 @@
 mod systems;
 
 use problem::{
-    DaeMethod, DaeProblem, EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, Matrix, OdeMethod, OdeProblem,
+    DaeMethod, DaeProblem, EvalError, Flow, IntegrationEnding, IntegrationOptions, IntegrationOutcome, LinearSolver, Matrix, OdeMethod,
+    OdeProblem,
 };
 pub use systems::*;
 
@@ -81,6 +82,9 @@ pub fn tolerance(tolerance: f64) -> IntegrationOptions {
 pub fn grid(from: f64, to: f64, intervals: usize) -> Vec<f64> {
     (0..=intervals).map(|i| from + (to - from) * i as f64 / intervals as f64).collect()
 }
+
+/// What may solve the linear equations of a step.
+pub const LINEAR_SOLVERS: [LinearSolver; 2] = [LinearSolver::Direct, LinearSolver::Gmres];
 
 /// A function of time and y.
 pub type Law = fn(f64, f64) -> Result<f64, EvalError>;
