@@ -76,7 +76,7 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
     }
     for (i, body) in model.bodies.iter().enumerate().skip(1).rev() {
         let (n, first, p) = (body.v.len(), body.v.start, body.parent.0);
-        let X = &w.position.X_PB[i];
+        let X = body.turned(&w.position.X_PB[i]);
         if let Some(F) = body.joint.wrench(&w.position.H[body.v.clone()], &w.tau[body.v.clone()]) {
             w.D[i] = factors(&w.articulated[i]);
             w.articulated_bias[i] -= F;
@@ -137,7 +137,7 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
         let (n, first) = (body.v.len(), body.v.start);
         let (H, vd) = (&w.position.H[body.v.clone()], &mut w.acceleration.vd[body.v.clone()]);
-        let carried = w.position.X_PB[i].twist_to_child(w.acceleration.A_WB[body.parent.0]) + w.velocity.bias[i];
+        let carried = body.turned(&w.position.X_PB[i]).twist_to_child(w.acceleration.A_WB[body.parent.0]) + w.velocity.bias[i];
         if body.joint.leaves_all() {
             let A = motion_under(&w.D[i], -w.articulated_bias[i]);
             body.joint.velocity(H, A - carried, vd);

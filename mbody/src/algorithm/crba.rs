@@ -18,7 +18,7 @@ pub fn crba<S: SystemScalar>(model: &Model, position: &Position<S>, composite: &
     for (i, body) in model.bodies.iter().enumerate().skip(1).rev() {
         let p = body.parent.0;
         if p != 0 {
-            let in_parent = composite[i].in_parent(&position.X_PB[i]);
+            let in_parent = composite[i].in_parent(body.turned(&position.X_PB[i]));
             composite[p] = composite[p].plus(&in_parent);
         }
         let H = body.joint.columns(&position.H[body.v.clone()]);
@@ -27,7 +27,7 @@ pub fn crba<S: SystemScalar>(model: &Model, position: &Position<S>, composite: &
             for (b, k) in body.v.clone().enumerate() {
                 M[k * nv + j] = H.dot(b, &F);
             }
-            let (mut X, mut at) = (&position.X_PB[i], p);
+            let (mut X, mut at) = (body.turned(&position.X_PB[i]), p);
             while at != 0 {
                 F = X.wrench_to_parent(F);
                 let carrier = &model.bodies[at];
@@ -36,7 +36,7 @@ pub fn crba<S: SystemScalar>(model: &Model, position: &Position<S>, composite: &
                     let entry = H.dot(b, &F);
                     (M[k * nv + j], M[j * nv + k]) = (entry, entry);
                 }
-                (X, at) = (&position.X_PB[at], carrier.parent.0);
+                (X, at) = (carrier.turned(&position.X_PB[at]), carrier.parent.0);
             }
         }
     }

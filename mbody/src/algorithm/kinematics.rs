@@ -22,7 +22,7 @@ pub fn position<S: SystemScalar>(model: &Model, position: &mut Position<S>) {
 pub fn world<S: SystemScalar>(model: &Model, position: &Position<S>, world: &mut World<S>) {
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
         let p = body.parent.0;
-        world.X_WB[i] = if p == 0 { position.X_PB[i] } else { world.X_WB[p] * position.X_PB[i] };
+        world.X_WB[i] = if p == 0 { position.X_PB[i] } else { body.turned(&position.X_PB[i]).seen_from(&world.X_WB[p]) };
     }
 }
 
@@ -35,7 +35,7 @@ pub fn velocity<S: SystemScalar>(model: &Model, position: &Position<S>, velocity
         // V × H v vanishes for a joint on the world
         (velocity.V_WB[i], velocity.bias[i]) = match p {
             0 => body.joint.motion_and_bias(q, H, v),
-            _ => body.joint.carried(position.X_PB[i].twist_to_child(velocity.V_WB[p]), q, H, v),
+            _ => body.joint.carried(body.turned(&position.X_PB[i]).twist_to_child(velocity.V_WB[p]), q, H, v),
         };
     }
 }
@@ -47,6 +47,6 @@ pub fn acceleration<S: SystemScalar>(model: &Model, position: &Position<S>, velo
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
         let A_J = body.joint.motion(&position.H[body.v.clone()], &acceleration.vd[body.v.clone()]);
         let A_P = acceleration.A_WB[body.parent.0];
-        acceleration.A_WB[i] = position.X_PB[i].twist_to_child(A_P) + A_J + velocity.bias[i];
+        acceleration.A_WB[i] = body.turned(&position.X_PB[i]).twist_to_child(A_P) + A_J + velocity.bias[i];
     }
 }

@@ -16,7 +16,7 @@
 use super::derivatives::Motion;
 use super::kinematics;
 use crate::model::Model;
-use crate::spatial::{Inertia, Twist, Vec3, Wrench};
+use crate::spatial::{Inertia, Turn, Turned, Twist, Vec3, Wrench};
 use crate::stage::Workspace;
 use problem::Matrix;
 
@@ -120,7 +120,7 @@ impl RecursiveDerivatives {
             X.p -= origin;
             let Carried { V: V_P, A: A_P, .. } = carried[body.parent.0];
             let (V, A) = (X.twist_to_parent(w.velocity.V_WB[i]), X.twist_to_parent(w.acceleration.A_WB[i]));
-            let inertia = body.inertia.in_parent(&X);
+            let inertia = body.inertia.in_parent(Turned::new(&X, Turn::Any));
             let momentum = inertia.times(V);
             let F = inertia.times(A) + V.cross_star(momentum);
             carried[i] = Carried { V, A, inertia, T: block(&inertia, V), momentum: momentum.f, F };

@@ -31,7 +31,7 @@ pub fn rnea<S: SystemScalar>(
         body.joint.effort(&position.H[body.v.clone()], F, &mut tau[body.v.clone()]);
         let p = body.parent.0;
         if p != 0 {
-            transmitted[p] += position.X_PB[i].wrench_to_parent(F);
+            transmitted[p] += body.turned(&position.X_PB[i]).wrench_to_parent(F);
         }
     }
 }

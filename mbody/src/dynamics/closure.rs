@@ -77,7 +77,7 @@ pub fn spread(model: &Model, w: &Workspace<f64>, body: BodyIndex, mut F: Wrench<
         for j in b.v.clone() {
             tau[j] += w.position.H[j].dot(F);
         }
-        F = w.position.X_PB[at.get()].wrench_to_parent(F);
+        F = b.turned(&w.position.X_PB[at.get()]).wrench_to_parent(F);
         at = b.parent;
     }
 }

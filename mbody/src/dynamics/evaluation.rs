@@ -229,7 +229,7 @@ impl<S: SystemScalar> Evaluation<S> {
             let F = self.pull[i];
             body.joint.effort(&w.position.H[body.v.clone()], F, &mut self.corrected[body.v.clone()]);
             if body.parent.get() != 0 {
-                self.pull[body.parent.get()] += w.position.X_PB[i].wrench_to_parent(F);
+                self.pull[body.parent.get()] += body.turned(&w.position.X_PB[i]).wrench_to_parent(F);
             }
         }
         model.layout.spread(&mut self.corrected);

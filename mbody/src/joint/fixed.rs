@@ -2,7 +2,7 @@
 
 use super::{Coordinate, JointLaw};
 use crate::scalar::Real;
-use crate::spatial::{Pose, Twist};
+use crate::spatial::{Pose, Turn, Twist};
 
 /// A joint without motion.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,9 @@ impl JointLaw for Fixed {
     }
     fn velocities(&self) -> &'static [Coordinate] {
         &[]
+    }
+    fn turn(&self) -> Turn {
+        Turn::Still
     }
     fn pose<S: Real>(&self, _q: &[S]) -> Pose<S> {
         Pose::identity()

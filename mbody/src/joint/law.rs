@@ -2,7 +2,7 @@
 
 use super::Columns;
 use crate::scalar::{Family, Jet, Make, PerScalar, Real, SystemScalar};
-use crate::spatial::{Component, Pose, Twist, Vec3, Wrench};
+use crate::spatial::{Component, Pose, Turn, Twist, Vec3, Wrench};
 use std::fmt;
 use std::sync::Arc;
 
@@ -36,6 +36,10 @@ pub trait JointLaw: fmt::Debug + Send + Sync + 'static {
     /// Unit axis, fixed in F and in M, about which the joint turns, where it only turns about one.
     fn rotation_axis(&self) -> Option<Vec3<f64>> {
         None
+    }
+    /// What is known of the rotation of `X_FM`, whatever the coordinates.
+    fn turn(&self) -> Turn {
+        self.rotation_axis().map_or(Turn::Any, Turn::about)
     }
     /// `X_FM(q)`.
     fn pose<S: Real>(&self, q: &[S]) -> Pose<S>;
@@ -195,6 +199,7 @@ pub struct Joint {
     velocities: &'static [Coordinate],
     reference: Vec<f64>,
     rotation_axis: Option<Vec3<f64>>,
+    turn: Turn,
     subspace_is_constant: bool,
     /// Which component of a twist each velocity is, where each is one.
     components: Option<Box<[Component]>>,
@@ -213,14 +218,14 @@ impl Joint {
     /// Stores a law.
     pub fn new<J: JointLaw>(law: J) -> Self {
         let (coordinates, velocities, reference) = (law.coordinates(), law.velocities(), law.reference());
-        let (rotation_axis, text) = (law.rotation_axis(), format!("{law:?}"));
+        let (rotation_axis, turn, text) = (law.rotation_axis(), law.turn(), format!("{law:?}"));
         let subspace_is_constant = law.subspace_is_constant() || velocities.is_empty();
         let mut H = vec![Twist::zero(); velocities.len()];
         law.subspace(&reference, &mut H);
         let components = H.iter().map(Component::of).collect::<Option<_>>().filter(|_| subspace_is_constant);
         let leaves_all = law.wrench(&H, &vec![0.0; velocities.len()]).is_some();
         let twins = PerScalar::new(&Maker(Arc::new(law)));
-        Self { twins, coordinates, velocities, reference, rotation_axis, subspace_is_constant, components, leaves_all, text }
+        Self { twins, coordinates, velocities, reference, rotation_axis, turn, subspace_is_constant, components, leaves_all, text }
     }
 
     /// The columns of `H`, given where they stand.
@@ -232,6 +237,11 @@ impl Joint {
     /// Unit axis, fixed in F and in M, about which the joint turns, where it only turns about one.
     pub fn rotation_axis(&self) -> Option<Vec3<f64>> {
         self.rotation_axis
+    }
+
+    /// What is known of the rotation of M in F, whatever the coordinates.
+    pub fn turn(&self) -> Turn {
+        self.turn
     }
 
     /// Whether `H` is the same for all q.

@@ -4,7 +4,7 @@
 
 use super::{Coordinate, JointLaw, revolute::rotation};
 use crate::scalar::Real;
-use crate::spatial::{Pose, Twist, Vec3};
+use crate::spatial::{Pose, Turn, Twist, Vec3};
 
 /// Translation along e₁ and e₂ and rotation about their normal.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +56,9 @@ impl JointLaw for Planar {
             },
             Coordinate { name: "rate", unit: "rad/s", about: "angular speed about the normal", nominal: 1.0, cyclic: false },
         ]
+    }
+    fn turn(&self) -> Turn {
+        Turn::about(self.axis)
     }
     fn pose<S: Real>(&self, q: &[S]) -> Pose<S> {
         Pose::new(rotation(self.axis, q[2]), self.e1.times(q[0]) + self.e2.times(q[1]))

@@ -2,7 +2,7 @@
 
 use super::{Coordinate, JointLaw};
 use crate::scalar::Real;
-use crate::spatial::{Pose, Rotation, Twist, Vec3, Wrench};
+use crate::spatial::{Pose, Rotation, Turn, Twist, Vec3, Wrench};
 
 /// Translation by `q` (m) along a unit axis.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +23,9 @@ impl JointLaw for Prismatic {
     }
     fn velocities(&self) -> &'static [Coordinate] {
         &[Coordinate { name: "speed", unit: "m/s", about: "speed along the joint axis", nominal: 1.0, cyclic: false }]
+    }
+    fn turn(&self) -> Turn {
+        Turn::Still
     }
     #[inline(always)]
     fn pose<S: Real>(&self, q: &[S]) -> Pose<S> {

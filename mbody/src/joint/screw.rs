@@ -2,7 +2,7 @@
 
 use super::{Coordinate, JointLaw, revolute::rotation};
 use crate::scalar::Real;
-use crate::spatial::{Pose, Twist, Vec3};
+use crate::spatial::{Pose, Turn, Twist, Vec3};
 
 /// Rotation by `q` (rad) and advance `pitch·q` (m) along the same unit axis.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +24,9 @@ impl JointLaw for Screw {
     }
     fn velocities(&self) -> &'static [Coordinate] {
         &[Coordinate { name: "rate", unit: "rad/s", about: "angular speed about the screw axis", nominal: 1.0, cyclic: false }]
+    }
+    fn turn(&self) -> Turn {
+        Turn::about(self.axis)
     }
     fn pose<S: Real>(&self, q: &[S]) -> Pose<S> {
         Pose::new(rotation(self.axis, q[0]), self.axis.times(q[0] * self.pitch))

@@ -2,7 +2,8 @@
 
 use super::BodyIndex;
 use crate::joint::Joint;
-use crate::spatial::{Inertia, MassProperties, Pose};
+use crate::scalar::Real;
+use crate::spatial::{Inertia, MassProperties, Pose, Turn, Turned};
 use std::ops::Range;
 
 /// A rigid body and the joint between it and its parent.
@@ -18,6 +19,8 @@ pub struct Body {
     pub joint: Joint,
     /// Pose of the joint's inboard frame F in the parent.
     pub X_PF: Pose<f64>,
+    /// What is known of the rotation of this body in its parent, whatever the coordinates.
+    pub(crate) turn: Turn,
     /// Mass properties in the body frame, everything welded to it included.
     pub mass: MassProperties,
     /// Spatial inertia about the body origin.
@@ -26,6 +29,14 @@ pub struct Body {
     pub q: Range<usize>,
     /// Tree velocities of the joint.
     pub v: Range<usize>,
+}
+
+impl Body {
+    /// The pose `X_PB` of this body in its parent, for products that spare what they know of it.
+    #[inline(always)]
+    pub fn turned<'a, S: Real>(&self, X_PB: &'a Pose<S>) -> Turned<'a, S> {
+        Turned::new(X_PB, self.turn)
+    }
 }
 
 /// A named frame fixed in a body.

@@ -2,7 +2,7 @@
 
 use super::{Body, BodyIndex, Follower, Frame, Layout, Model};
 use crate::joint::{Fixed, Joint};
-use crate::spatial::{MassProperties, Pose, Vec3};
+use crate::spatial::{MassProperties, Pose, Turn, Vec3};
 use thiserror::Error;
 
 /// Why a model could not be built.
@@ -62,6 +62,7 @@ impl ModelBuilder {
             joint_name: String::new(),
             joint: Joint::new(Fixed),
             X_PF: Pose::identity(),
+            turn: Turn::Still,
             mass: MassProperties::NONE,
             inertia: MassProperties::NONE.spatial(),
             q: 0..0,
@@ -102,8 +103,9 @@ impl ModelBuilder {
         let (q, v) = (self.nq..self.nq + joint.nq(), self.nv..self.nv + joint.nv());
         (self.nq, self.nv) = (q.end, v.end);
         self.frames.push(Frame { name: name.into(), body: index, X_BF: Pose::identity() });
-        let inertia = mass.spatial();
-        self.bodies.push(Body { name: name.into(), parent, joint_name: joint_name.into(), joint, X_PF, mass, inertia, q, v });
+        let (inertia, turn) = (mass.spatial(), Turn::of(&X_PF.R).then(joint.turn()));
+        let joint_name = joint_name.into();
+        self.bodies.push(Body { name: name.into(), parent, joint_name, joint, X_PF, turn, mass, inertia, q, v });
         Ok(index)
     }
 

@@ -2,7 +2,8 @@
 //!
 //! A rigid body is (m, h = m c, I about the origin); `I = I_c − m [c]×[c]×` (Featherstone, section 2.13).
 
-use super::{Pose, Rotation, Twist, Vec3, Wrench};
+use super::turn::Turning;
+use super::{Pose, Rotation, Turned, Twist, Vec3, Wrench};
 use crate::scalar::Real;
 use nalgebra::Matrix3;
 
@@ -93,7 +94,7 @@ pub struct Inertia<S> {
 }
 
 #[inline(always)]
-fn symmetric_times<S: Real>(I: &[S; 6], w: Vec3<S>) -> Vec3<S> {
+pub(super) fn symmetric_times<S: Real>(I: &[S; 6], w: Vec3<S>) -> Vec3<S> {
     Vec3::new(w.x * I[0] + w.y * I[3] + w.z * I[4], w.x * I[3] + w.y * I[1] + w.z * I[5], w.x * I[4] + w.y * I[5] + w.z * I[2])
 }
 
@@ -133,45 +134,36 @@ impl<S: Real> Inertia<S> {
 
     /// The same body in frame A, given the pose of its frame B in A.
     #[inline(always)]
-    pub fn in_parent(&self, X_AB: &Pose<S>) -> Self {
-        let R = &X_AB.R;
-        let h = *R * self.h;
-        let p = X_AB.p;
-        let t = rotate_symmetric(R, &self.I);
-        // I_A = R I Rᵀ − [p]×[h]× − [h]×[p]× − m [p]×[p]×, with h already turned
-        let (m, pm) = (self.m, p.scaled(self.m));
-        let two = |a: S, b: S| a + b;
+    pub fn in_parent(&self, X_AB: Turned<'_, S>) -> Self {
+        X_AB.inertia_to_parent(self)
+    }
+
+    /// The same body in turned axes.
+    #[inline(always)]
+    pub(super) fn turned<T: Turning>(&self, R: &Rotation<S>) -> Self {
+        Self { m: self.m, h: T::turned(R, self.h), I: T::symmetric(R, &self.I) }
+    }
+
+    /// The same body about a point at −p.
+    #[inline(always)]
+    pub(super) fn shifted(&self, p: Vec3<S>) -> Self {
+        // I − [p]×[h]× − [h]×[p]× − m [p]×[p]×
+        let (m, h, I, pm) = (self.m, self.h, &self.I, p.scaled(self.m));
         let d = (p.dot(h)) * 2.0 + p.dot(pm);
-        let outer = |i: usize, j: usize| two(p[i] * h[j] + h[i] * p[j], p[i] * pm[j]);
+        let outer = |i: usize, j: usize| p[i] * h[j] + h[i] * p[j] + p[i] * pm[j];
         Self {
             m,
             h: h + pm,
             I: [
-                t[0] + d - outer(0, 0),
-                t[1] + d - outer(1, 1),
-                t[2] + d - outer(2, 2),
-                t[3] - outer(0, 1),
-                t[4] - outer(0, 2),
-                t[5] - outer(1, 2),
+                I[0] + d - outer(0, 0),
+                I[1] + d - outer(1, 1),
+                I[2] + d - outer(2, 2),
+                I[3] - outer(0, 1),
+                I[4] - outer(0, 2),
+                I[5] - outer(1, 2),
             ],
         }
     }
-}
-
-/// `R I Rᵀ` of a symmetric tensor (xx, yy, zz, xy, xz, yz).
-#[inline(always)]
-fn rotate_symmetric<S: Real>(R: &Rotation<S>, I: &[S; 6]) -> [S; 6] {
-    let Rt = R.inverse();
-    // rows of R are the columns of Rᵀ
-    let a: [Vec3<S>; 3] = std::array::from_fn(|i| symmetric_times(I, Rt.columns[i]));
-    [
-        Rt.columns[0].dot(a[0]),
-        Rt.columns[1].dot(a[1]),
-        Rt.columns[2].dot(a[2]),
-        Rt.columns[0].dot(a[1]),
-        Rt.columns[0].dot(a[2]),
-        Rt.columns[1].dot(a[2]),
-    ]
 }
 
 /// Articulated-body inertia: a general symmetric 6 × 6 in blocks `[[J, H], [Hᵀ, M]]` acting on (w; v).
@@ -244,27 +236,29 @@ impl<S: Real> ArticulatedInertia<S> {
 
     /// The same inertia in frame A, given the pose of its frame B in A.
     #[inline(always)]
-    pub fn in_parent(&self, X_AB: &Pose<S>) -> Self {
-        let R = &X_AB.R;
-        let p = X_AB.p;
-        let J = rotate_symmetric(R, &self.J);
-        let M = rotate_symmetric(R, &self.M);
-        // H' = R H Rᵀ, by columns
-        let Rt = R.inverse();
-        let RH = [R * self.H[0], R * self.H[1], R * self.H[2]];
-        let Ht: [Vec3<S>; 3] = std::array::from_fn(|j| {
-            let row = Rt.columns[j];
-            RH[0].scaled(row.x) + RH[1].scaled(row.y) + RH[2].scaled(row.z)
-        });
+    pub fn in_parent(&self, X_AB: Turned<'_, S>) -> Self {
+        X_AB.articulated_to_parent(self)
+    }
+
+    /// The same inertia in turned axes.
+    #[inline(always)]
+    pub(super) fn turned<T: Turning>(&self, R: &Rotation<S>) -> Self {
+        Self { J: T::symmetric(R, &self.J), H: T::tensor(R, &self.H), M: T::symmetric(R, &self.M) }
+    }
+
+    /// The same inertia about a point at −p.
+    #[inline(always)]
+    pub(super) fn shifted(&self, p: Vec3<S>) -> Self {
+        let Self { J, H, M } = self;
         let Mcol = [Vec3::new(M[0], M[3], M[4]), Vec3::new(M[3], M[1], M[5]), Vec3::new(M[4], M[5], M[2])];
-        // H_A = H' + [p]× M ;  J_A = J' + [p]× H'ᵀ + ([p]× H'ᵀ)ᵀ + [p]× M [p]×ᵀ = J' + [p]× H'ᵀ − H_A [p]×
-        let HA: [Vec3<S>; 3] = std::array::from_fn(|j| Ht[j] + p.cross(Mcol[j]));
-        // columns of H'ᵀ are the rows of H'
-        let rows: [Vec3<S>; 3] = std::array::from_fn(|i| Vec3::new(Ht[0][i], Ht[1][i], Ht[2][i]));
+        // H_A = H + [p]× M ;  J_A = J + [p]× Hᵀ + ([p]× Hᵀ)ᵀ + [p]× M [p]×ᵀ = J + [p]× Hᵀ − H_A [p]×
+        let HA: [Vec3<S>; 3] = std::array::from_fn(|j| H[j] + p.cross(Mcol[j]));
+        // columns of Hᵀ are the rows of H
+        let rows: [Vec3<S>; 3] = std::array::from_fn(|i| Vec3::new(H[0][i], H[1][i], H[2][i]));
         let A: [Vec3<S>; 3] = std::array::from_fn(|j| p.cross(rows[j]));
         // columns of [p]×: (0, pz, −py), (−pz, 0, px), (py, −px, 0)
         let B = [HA[1].scaled(p.z) - HA[2].scaled(p.y), HA[2].scaled(p.x) - HA[0].scaled(p.z), HA[0].scaled(p.y) - HA[1].scaled(p.x)];
         let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-        Self { J: std::array::from_fn(|k| J[k] + A[pairs[k].1][pairs[k].0] - B[pairs[k].1][pairs[k].0]), H: HA, M }
+        Self { J: std::array::from_fn(|k| J[k] + A[pairs[k].1][pairs[k].0] - B[pairs[k].1][pairs[k].0]), H: HA, M: *M }
     }
 }

@@ -1,6 +1,5 @@
 //! GMRES without any matrix: the heat equation on a line, whose modes decay by themselves.
 
-#[allow(unused_imports, reason = "its systems are for the other tests")]
 mod motion;
 
 use motion::*;

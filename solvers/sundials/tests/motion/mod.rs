@@ -1,5 +1,5 @@
 //! Initial value problems with published or exact solutions, and a recorder of samples.
-#![allow(dead_code, reason = "each test binary uses a part")]
+#![allow(dead_code, unused_imports, reason = "each test binary uses a part")]
 
 mod systems;
 
