@@ -272,13 +272,21 @@ fn outputs_alone_are_those_of_the_residual() {
         let (still, idle) = (vec![0.0; yd.len()], vec![0.0; u.len()]);
         for (y, yd, u) in [(&still, &still, &idle), (&y, &yd, &u), (&y, &still, &u), (&y, &yd, &idle), (&still, &yd, &u)] {
             let at = At { time: 0.3, y, yd, u };
-            // some models cannot be evaluated where everything is zero
-            if other.evaluate(at, &mut room, &mut expected).is_err() {
-                continue;
-            }
-            plant.observe(at, &mut room, &mut found).unwrap_or_else(|error| panic!("{model}: {error:?}"));
-            for (signal, (a, b)) in plant.outputs().iter().zip(found.iter().zip(&expected)) {
-                assert!(a == b || (a.is_nan() && b.is_nan()), "{model}, {}: {a} is not {b}", signal.name);
+            // once by themselves, once where rates were solved for just before
+            let (mut completed, mut rates) = (y.clone(), yd.clone());
+            for solved in [false, true] {
+                // some models cannot be evaluated where everything is zero
+                let at = if solved { At { y: &completed, yd: &rates, ..at } } else { at };
+                if other.evaluate(at, &mut room, &mut expected).is_err() {
+                    continue;
+                }
+                plant.observe(at, &mut room, &mut found).unwrap_or_else(|error| panic!("{model}: {error:?}"));
+                for (signal, (a, b)) in plant.outputs().iter().zip(found.iter().zip(&expected)) {
+                    assert!(a == b || (a.is_nan() && b.is_nan()), "{model}, {}, {solved}: {a} is not {b}", signal.name);
+                }
+                if plant.solve_rates(at.time, &mut completed, u, &mut rates).is_err() {
+                    break;
+                }
             }
         }
     }

@@ -12,6 +12,7 @@ use crate::model::Model;
 use crate::scalar::{Family, Make, SystemScalar};
 use crate::spatial::{Pose, Wrench};
 use crate::stage::Workspace;
+use std::cell::Cell;
 
 /// Arguments and results of one evaluation. Allocated once per plant and scalar.
 #[derive(Clone, Debug)]
@@ -32,6 +33,10 @@ pub struct Evaluation<S> {
     pub tree: Workspace<S>,
     /// Whether the bodies were ever placed.
     placed: bool,
+    /// Whether bodies and elements are those of `(time, y, u)`.
+    pub(super) current: bool,
+    /// \[elements\] whether it has read an acceleration or the rate of a state.
+    reads_rates: Vec<bool>,
     joint_efforts: Vec<S>,
     /// [rows of all constraints] error, rate, acceleration.
     pub(super) rows: Vec<RowValue<S>>,
@@ -43,6 +48,17 @@ pub struct Evaluation<S> {
     pull: Vec<Wrench<S>>,
     /// [tree nv] `v + Jᵀ μ`.
     corrected: Vec<S>,
+}
+
+/// What is known at the point where outputs are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Known {
+    /// Nothing.
+    Nothing,
+    /// Where the bodies are and how fast they move.
+    Bodies,
+    /// What the elements do, as far as they do not read rates.
+    Elements,
 }
 
 /// Family of [`Evaluation`]s.
@@ -71,6 +87,8 @@ impl Make<Evaluations> for Maker<'_> {
             outputs: zeros(system.outputs.len()),
             tree: Workspace::new(&system.model),
             placed: false,
+            current: false,
+            reads_rates: vec![false; system.elements.len()],
             joint_efforts: zeros(nv),
             rows: vec![RowValue::default(); rows],
             directions: vec![Wrench::zero(); rows],
@@ -150,17 +168,26 @@ impl<S: SystemScalar> Evaluation<S> {
         rates[nq..].copy_from_slice(&w.acceleration.vd);
     }
 
-    /// Evaluates the outputs at `(time, y, yd, u)`; y need not have `moved` since the last evaluation. The residual is left in any state.
-    /// Allocates nothing.
-    pub(super) fn observe(&mut self, system: &System, form: &Form, moved: bool) {
+    /// Evaluates the outputs at `(time, y, yd, u)`, given what is known there. The residual is left in any state. Allocates nothing.
+    pub(super) fn observe(&mut self, system: &System, form: &Form, known: Known) {
         if !system.reactions.is_empty() {
             return self.run(system, form);
         }
-        if moved || !self.placed {
+        if known == Known::Nothing || !self.placed {
             self.motion(system);
         }
         self.accelerations(system);
-        self.elements(system, form);
+        match known {
+            Known::Nothing | Known::Bodies => self.elements(system, form),
+            Known::Elements => {
+                for k in 0..system.elements.len() {
+                    if self.reads_rates[k] {
+                        self.element(system, k);
+                    }
+                }
+                self.current = true;
+            }
+        }
     }
 
     /// Evaluates residual and outputs at `(time, y, yd, u)`. Allocates nothing.
@@ -240,39 +267,48 @@ impl<S: SystemScalar> Evaluation<S> {
 
     /// Applies all elements: wrenches, joint efforts, rows, outputs.
     fn elements(&mut self, system: &System, form: &Form) {
-        let (model, w) = (&system.model, &mut self.tree);
-        let first = model.layout.nq() + model.layout.nv();
-        w.applied.fill(Default::default());
+        self.tree.applied.fill(Default::default());
         self.joint_efforts.fill(S::zero());
-        for (k, element) in system.elements.iter().enumerate() {
-            if form.silent.get(k) == Some(&true) {
-                continue;
+        for k in 0..system.elements.len() {
+            if form.silent.get(k) != Some(&true) {
+                self.reads_rates[k] = self.element(system, k);
             }
-            let states = first + element.states.start..first + element.states.end;
-            let at = Evaluated {
-                model,
-                time: self.time,
-                position: &w.position,
-                world: &w.world,
-                velocity: &w.velocity,
-                acceleration: &w.acceleration,
-                states: &self.y[states.clone()],
-                state_rates: &self.yd[states.clone()],
-                inputs: &self.u,
-                input_map: &element.inputs,
-                multipliers: &self.y[system.base_unknowns.len()..],
-                multiplier_map: &element.multipliers,
-            };
-            let mut out = Effort {
-                model,
-                world: &w.world,
-                applied: &mut w.applied,
-                tau: &mut self.joint_efforts,
-                rows: &mut self.residual[states],
-                outputs: &mut self.outputs[element.outputs.clone()],
-            };
-            element.force.apply(&at, &mut out);
         }
+        self.current = true;
+    }
+
+    /// Applies one element. True where it has read an acceleration or the rate of a state.
+    #[inline]
+    fn element(&mut self, system: &System, k: usize) -> bool {
+        let (model, w, element) = (&system.model, &mut self.tree, &system.elements[k]);
+        let first = model.layout.nq() + model.layout.nv();
+        let states = first + element.states.start..first + element.states.end;
+        let reads_rates = Cell::new(false);
+        let at = Evaluated {
+            model,
+            time: self.time,
+            position: &w.position,
+            world: &w.world,
+            velocity: &w.velocity,
+            acceleration: &w.acceleration,
+            states: &self.y[states.clone()],
+            state_rates: &self.yd[states.clone()],
+            inputs: &self.u,
+            input_map: &element.inputs,
+            multipliers: &self.y[system.base_unknowns.len()..],
+            multiplier_map: &element.multipliers,
+            reads_rates: &reads_rates,
+        };
+        let mut out = Effort {
+            model,
+            world: &w.world,
+            applied: &mut w.applied,
+            tau: &mut self.joint_efforts,
+            rows: &mut self.residual[states],
+            outputs: &mut self.outputs[element.outputs.clone()],
+        };
+        element.force.apply(&at, &mut out);
+        reads_rates.get()
     }
 
     /// Energy account at `(time, y, yd, u)`; fills the kinematic stages itself.
@@ -307,6 +343,7 @@ impl<S: SystemScalar> Evaluation<S> {
             input_map: &element.inputs,
             multipliers: &self.y[system.base_unknowns.len()..],
             multiplier_map: &element.multipliers,
+            reads_rates: &Cell::new(false),
         };
         element.force.energy(&at)
     }

@@ -1,7 +1,7 @@
 //! The assembled system in the vocabulary of `problem`: the only file of the engine that implements it.
 
 use super::closure::{Closure, Work};
-use super::evaluation::{Evaluation, Evaluations, Maker};
+use super::evaluation::{Evaluation, Evaluations, Known, Maker};
 use super::explicit::ExplicitSolver;
 use super::{Account, Element, Form, Formulation, System};
 use crate::scalar::{Lanes, PerScalar, SystemScalar};
@@ -76,10 +76,27 @@ impl TreePlant {
     /// Writes the rates of coordinates and velocities of a tree without constraints and states.
     pub(super) fn forward_at(&mut self, at: At<'_>, rates: &mut [f64]) {
         let e = f64::pick_mut(&mut self.evaluations);
+        e.current = false;
         e.time = at.time;
         e.y.copy_from_slice(at.y);
         e.u.copy_from_slice(at.u);
         e.forward(&self.system, &self.form, rates);
+    }
+
+    /// Writes the outputs at a point. Unless the last evaluation was made there, `otherwise` says what to do; false where that was nothing.
+    pub(super) fn observe_at(&mut self, at: At<'_>, otherwise: Otherwise, outputs: &mut [f64]) -> bool {
+        let e = f64::pick_mut(&mut self.evaluations);
+        let bodies = e.y == at.y;
+        let known = match bodies && e.current && e.time == at.time && e.u == at.u {
+            true => Known::Elements,
+            false if otherwise == Otherwise::Leave => return false,
+            false if bodies => Known::Bodies,
+            false => Known::Nothing,
+        };
+        load(e, at);
+        e.observe(&self.system, &self.form, known);
+        outputs.copy_from_slice(&e.outputs);
+        true
     }
 
     /// The evaluation of plain numbers, as the last point left it.
@@ -107,9 +124,19 @@ impl TreePlant {
     }
 }
 
+/// What to do about outputs at a point where nothing was evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Otherwise {
+    /// Evaluate them.
+    Evaluate,
+    /// Leave them.
+    Leave,
+}
+
 /// Loads a point without derivatives.
 #[inline]
 fn load<S: SystemScalar>(e: &mut Evaluation<S>, at: At<'_>) {
+    e.current = false;
     e.time = at.time;
     for (x, &value) in e.y.iter_mut().zip(at.y) {
         *x = S::from_f64(value);
@@ -149,12 +176,11 @@ impl Outputs for TreePlant {
         finite(residual)
     }
     fn observe(&mut self, at: At<'_>, _residual: &mut [f64], outputs: &mut [f64]) -> Result<(), EvalError> {
-        let e = f64::pick_mut(&mut self.evaluations);
-        // where the rates were just solved for, bodies are where they were
-        let moved = e.y != at.y;
-        load(e, at);
-        e.observe(&self.system, &self.form, moved);
-        outputs.copy_from_slice(&e.outputs);
+        // where rates were just solved for, most is known; what is silent here is not silent there
+        let explicit = self.explicit.as_mut().filter(|_| self.form.silent.is_empty());
+        if !explicit.is_some_and(|explicit| explicit.observe_again(at, outputs)) {
+            self.observe_at(at, Otherwise::Evaluate, outputs);
+        }
         Ok(())
     }
 }

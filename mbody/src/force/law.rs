@@ -6,6 +6,7 @@ use crate::spatial::{Pose, Twist, Vec3, Wrench};
 use crate::stage::{Acceleration, Position, Velocity, World};
 use problem::Side;
 use std::any::Any;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// A state that an element owns: deflection, lag, integrator.
@@ -131,6 +132,8 @@ pub struct Evaluated<'a, S> {
     pub(crate) input_map: &'a [usize],
     pub(crate) multipliers: &'a [S],
     pub(crate) multiplier_map: &'a [usize],
+    /// Set where an acceleration or the rate of a state is read.
+    pub(crate) reads_rates: &'a Cell<bool>,
 }
 
 impl<S: SystemScalar> Evaluated<'_, S> {
@@ -168,6 +171,7 @@ impl<S: SystemScalar> Evaluated<'_, S> {
     /// Acceleration, in world axes, of a point fixed in a body.
     #[inline]
     pub fn a_WQ(&self, body: BodyIndex, p_BQ: Vec3<f64>) -> Vec3<S> {
+        self.reads_rates.set(true);
         let (X, V, A) = (self.X_WB(body), self.V_WB(body), &self.acceleration.A_WB[body.0]);
         let p = Vec3::from_f64(p_BQ);
         let in_body = A.v + A.w.cross(p) + V.w.cross(V.v + V.w.cross(p));
@@ -195,12 +199,14 @@ impl<S: SystemScalar> Evaluated<'_, S> {
     /// First acceleration of the joint that carries a body.
     #[inline]
     pub fn acceleration(&self, body: BodyIndex) -> S {
+        self.reads_rates.set(true);
         self.acceleration.vd[self.model.body(body).v.start]
     }
 
     /// Angular acceleration of a body, in world axes.
     #[inline]
     pub fn alpha_WB(&self, body: BodyIndex) -> Vec3<S> {
+        self.reads_rates.set(true);
         self.X_WB(body).R * self.acceleration.A_WB[body.0].w
     }
 
@@ -213,6 +219,7 @@ impl<S: SystemScalar> Evaluated<'_, S> {
     /// The rate of an own state.
     #[inline]
     pub fn state_rate(&self, i: usize) -> S {
+        self.reads_rates.set(true);
         self.state_rates[i]
     }
 

@@ -147,7 +147,7 @@ impl<const K: usize> Real for Lanes<K> {
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (s, c) = f64::sin_cos(self.re);
+        let (s, c) = Real::sin_cos(self.re);
         (self.chain(s, c), self.chain(c, -s))
     }
     #[inline(always)]
@@ -171,13 +171,13 @@ impl<const K: usize> Real for Lanes<K> {
     }
     #[inline(always)]
     fn atan(self) -> Self {
-        self.chain(f64::atan(self.re), 1.0 / (1.0 + self.re * self.re))
+        self.chain(Real::atan(self.re), 1.0 / (1.0 + self.re * self.re))
     }
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
         let r2 = 1.0 / (self.re * self.re + x.re * x.re);
         let (a, b) = (f64x4::splat(x.re * r2), f64x4::splat(-self.re * r2));
-        Self { re: f64::atan2(self.re, x.re), eps: std::array::from_fn(|k| self.eps[k].mul_add(a, x.eps[k] * b)) }
+        Self { re: Real::atan2(self.re, x.re), eps: std::array::from_fn(|k| self.eps[k].mul_add(a, x.eps[k] * b)) }
     }
     #[inline(always)]
     fn tanh(self) -> Self {

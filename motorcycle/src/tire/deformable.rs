@@ -137,7 +137,7 @@ impl Deformable {
             support: load,
             friction,
             rolling_moment: tire.rolling_resistance.moment(load, effective_radius, wheel.spin, speed_x),
-            lateral_slip: slip.lateral,
+            slip_angle: slip.lateral.atan(),
             longitudinal_slip: slip.longitudinal,
             rows,
             stored,

@@ -51,8 +51,8 @@ pub(super) struct Patch<S> {
     pub friction: Friction<S>,
     /// Moment of rolling resistance about the axle, N m.
     pub rolling_moment: S,
-    /// Lateral slip that the friction sees.
-    pub lateral_slip: S,
+    /// Slip angle that the friction sees, rad.
+    pub slip_angle: S,
     /// Longitudinal slip that the friction sees.
     pub longitudinal_slip: S,
     /// Residuals of the rows of the own states, as many of them as there are states.
@@ -78,7 +78,7 @@ impl<S: SystemScalar> Patch<S> {
             f.overturning_moment,
             self.rolling_moment,
             f.aligning_moment,
-            self.lateral_slip.atan(),
+            self.slip_angle,
             self.longitudinal_slip,
             at.frame.camber,
             self.deflection,

@@ -147,6 +147,6 @@ impl Relaxation {
             }
             Self::None | Self::Slip { .. } => {}
         }
-        (patch.friction, patch.lateral_slip, patch.longitudinal_slip) = (friction, a, kappa);
+        (patch.friction, patch.slip_angle, patch.longitudinal_slip) = (friction, a.atan(), kappa);
     }
 }

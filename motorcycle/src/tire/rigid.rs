@@ -53,7 +53,7 @@ impl Rigid {
             support: S::zero(),
             friction: Friction::default(),
             rolling_moment: tire.rolling_resistance.moment(load, effective_radius, wheel.spin, speed),
-            lateral_slip: S::zero(),
+            slip_angle: S::zero(),
             longitudinal_slip: S::zero(),
             rows: [S::zero(); 2],
             stored: S::zero(),

@@ -58,10 +58,9 @@ impl ThinDiscLinear {
         let (speed_x, speed_y) = (v.dot(frame.x), v.dot(frame.y));
         let reference = (speed_x * speed_x + self.low_speed * self.low_speed).sqrt();
         // V* is positive: the arc tangent of the quotient is the angle
-        let lateral_slip = -(speed_y / reference);
         let slip = Slip {
             load,
-            lateral: lateral_slip.atan(),
+            lateral: -(speed_y / reference).atan(),
             longitudinal: (speed_x - (wheel.spin + about_axle) * radius) * -reference.recip(),
             camber: frame.camber,
             speed: reference,
@@ -78,7 +77,7 @@ impl ThinDiscLinear {
             support: load,
             friction,
             rolling_moment: S::zero(),
-            lateral_slip,
+            slip_angle: slip.lateral,
             longitudinal_slip: slip.longitudinal,
             rows: [S::zero(); 2],
             stored,

@@ -65,7 +65,7 @@ impl Vertical {
             support: load,
             friction: Friction::default(),
             rolling_moment: tire.rolling_resistance.moment(load, effective_radius, wheel.spin, speed),
-            lateral_slip: S::zero(),
+            slip_angle: S::zero(),
             longitudinal_slip: S::zero(),
             rows: [S::zero(); 2],
             stored: stored + square * compressed.abs() * (1.0 / 3.0),

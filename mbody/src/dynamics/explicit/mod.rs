@@ -9,6 +9,7 @@ mod articulated;
 mod direct;
 mod newton;
 
+use super::plant::Otherwise;
 use super::{Formulation, System, TreePlant};
 use along::Along;
 use direct::Direct;
@@ -61,6 +62,13 @@ impl ExplicitSolver {
             Way::Direct(direct) => direct.solve(&mut self.plant, &self.still, time, y, u, &mut yd[..n]),
             Way::Newton(newton) => newton.solve(&mut self.plant, time, y, u, &mut yd[..n]),
         }
+    }
+
+    /// Writes the outputs at a point, if it was solved for last.
+    pub(super) fn observe_again(&mut self, at: At<'_>, outputs: &mut [f64]) -> bool {
+        // of unknowns that only other formulations have, outputs know nothing
+        let n = self.plant.unknowns().len();
+        self.plant.observe_at(At { y: &at.y[..n], yd: &at.yd[..n], ..at }, Otherwise::Leave, outputs)
     }
 
     /// Writes derivatives of what [`ExplicitSolver::solve`] overwrites, along all seeds.
