@@ -7,7 +7,7 @@
 
 use crate::model::Model;
 use crate::scalar::SystemScalar;
-use crate::spatial::{ArticulatedInertia, Component, Twist, Vec3, Wrench};
+use crate::spatial::{ArticulatedInertia, Twist, Vec3, Wrench};
 use crate::stage::Workspace;
 
 /// Factorizes the leading n × n block in place: lower triangle L with ones on the diagonal, in place of which 1/d stands, `D = L d Lᵀ`.
@@ -45,24 +45,6 @@ fn solve<S: SystemScalar>(L: &[[S; 6]; 6], b: &mut [S; 6], n: usize) {
     }
 }
 
-/// Factors of the whole inertia of a body.
-#[inline(always)]
-fn factors<S: SystemScalar>(I: &ArticulatedInertia<S>) -> [[S; 6]; 6] {
-    let columns = Component::ALL.map(|b| I.column(b));
-    let mut D = Component::ALL.map(|a| columns.map(|column| column.along(a)));
-    factorize(&mut D, 6);
-    D
-}
-
-/// The motion that makes a wrench, by the factors of an inertia.
-#[inline(always)]
-fn motion_under<S: SystemScalar>(factors: &[[S; 6]; 6], F: Wrench<S>) -> Twist<S> {
-    let mut x = Component::ALL.map(|c| F.along(c));
-    solve(factors, &mut x, 6);
-    let [wx, wy, wz, vx, vy, vz] = x;
-    Twist::new(Vec3::new(wx, wy, wz), Vec3::new(vx, vy, vz))
-}
-
 /// Writes the tree accelerations into `w.acceleration.vd` (and body accelerations) for the motion in stages 1 and 2, the
 /// joint forces `w.tau` and the applied wrenches `w.applied`. O(n), allocates nothing.
 ///
@@ -78,7 +60,6 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
         let (n, first, p) = (body.v.len(), body.v.start, body.parent.0);
         let X = body.turned(&w.position.X_PB[i]);
         if let Some(F) = body.joint.wrench(&w.position.H[body.v.clone()], &w.tau[body.v.clone()]) {
-            w.D[i] = factors(&w.articulated[i]);
             w.articulated_bias[i] -= F;
             if p != 0 {
                 w.articulated_bias[p] += X.wrench_to_parent(F);
@@ -139,21 +120,21 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
         let (H, vd) = (&w.position.H[body.v.clone()], &mut w.acceleration.vd[body.v.clone()]);
         let carried = body.turned(&w.position.X_PB[i]).twist_to_child(w.acceleration.A_WB[body.parent.0]) + w.velocity.bias[i];
         if body.joint.leaves_all() {
-            let A = motion_under(&w.D[i], -w.articulated_bias[i]);
+            let A = w.articulated[i].motion_under(-w.articulated_bias[i]);
             body.joint.velocity(H, A - carried, vd);
             w.acceleration.A_WB[i] = A;
             continue;
         }
-        let mut x = [S::zero(); 6];
-        for a in 0..n {
-            x[a] = w.u[first + a] - carried.dot(w.U[first + a]);
-        }
         if n == 1 {
-            x[0] *= w.D[i][0][0];
+            vd[0] = (w.u[first] - carried.dot(w.U[first])) * w.D[i][0][0];
         } else {
+            let mut x = [S::zero(); 6];
+            for a in 0..n {
+                x[a] = w.u[first + a] - carried.dot(w.U[first + a]);
+            }
             solve(&w.D[i], &mut x, n);
+            vd.copy_from_slice(&x[..n]);
         }
-        vd.copy_from_slice(&x[..n]);
-        w.acceleration.A_WB[i] = carried + body.joint.motion(H, &x[..n]);
+        w.acceleration.A_WB[i] = body.joint.moved(carried, H, vd);
     }
 }

@@ -45,8 +45,8 @@ pub fn velocity<S: SystemScalar>(model: &Model, position: &Position<S>, velocity
 pub fn acceleration<S: SystemScalar>(model: &Model, position: &Position<S>, velocity: &Velocity<S>, acceleration: &mut Acceleration<S>) {
     acceleration.A_WB[0] = Twist::new(Vec3::zero(), Vec3::from_f64(-model.gravity));
     for (i, body) in model.bodies.iter().enumerate().skip(1) {
-        let A_J = body.joint.motion(&position.H[body.v.clone()], &acceleration.vd[body.v.clone()]);
-        let A_P = acceleration.A_WB[body.parent.0];
-        acceleration.A_WB[i] = body.turned(&position.X_PB[i]).twist_to_child(A_P) + A_J + velocity.bias[i];
+        let (H, vd) = (&position.H[body.v.clone()], &acceleration.vd[body.v.clone()]);
+        let carried = body.turned(&position.X_PB[i]).twist_to_child(acceleration.A_WB[body.parent.0]) + velocity.bias[i];
+        acceleration.A_WB[i] = body.joint.moved(carried, H, vd);
     }
 }

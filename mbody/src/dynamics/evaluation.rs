@@ -35,6 +35,8 @@ pub struct Evaluation<S> {
     placed: bool,
     /// Whether bodies and elements are those of `(time, y, u)`.
     pub(super) current: bool,
+    /// Whether the elements that only tell took part.
+    told: bool,
     /// \[elements\] whether it has read an acceleration or the rate of a state.
     reads_rates: Vec<bool>,
     joint_efforts: Vec<S>,
@@ -48,6 +50,15 @@ pub struct Evaluation<S> {
     pull: Vec<Wrench<S>>,
     /// [tree nv] `v + Jᵀ μ`.
     corrected: Vec<S>,
+}
+
+/// Which elements take part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All.
+    All,
+    /// Those that exert something or have rows.
+    Forces,
 }
 
 /// What is known at the point where outputs are asked for.
@@ -88,6 +99,7 @@ impl Make<Evaluations> for Maker<'_> {
             tree: Workspace::new(&system.model),
             placed: false,
             current: false,
+            told: false,
             reads_rates: vec![false; system.elements.len()],
             joint_efforts: zeros(nv),
             rows: vec![RowValue::default(); rows],
@@ -159,7 +171,7 @@ impl<S: SystemScalar> Evaluation<S> {
     /// Elements see the accelerations of some earlier point, on which their forces must not depend. Allocates nothing.
     pub(super) fn forward(&mut self, system: &System, form: &Form, rates: &mut [S]) {
         self.motion(system);
-        self.elements(system, form);
+        self.elements(system, form, Part::Forces);
         let (model, w) = (&system.model, &mut self.tree);
         std::mem::swap(&mut w.tau, &mut self.joint_efforts);
         aba(model, w);
@@ -178,22 +190,29 @@ impl<S: SystemScalar> Evaluation<S> {
         }
         self.accelerations(system);
         match known {
-            Known::Nothing | Known::Bodies => self.elements(system, form),
+            Known::Nothing | Known::Bodies => self.elements(system, form, Part::All),
             Known::Elements => {
                 for k in 0..system.elements.len() {
-                    if self.reads_rates[k] {
-                        self.element(system, k);
+                    let silent = form.silent.get(k) == Some(&true);
+                    let unknown = self.reads_rates[k] || !self.told && system.elements[k].force.declared().tells_only;
+                    if unknown && !silent {
+                        self.reads_rates[k] = self.element(system, k);
                     }
                 }
-                self.current = true;
+                (self.current, self.told) = (true, true);
             }
         }
     }
 
     /// Evaluates residual and outputs at `(time, y, yd, u)`. Allocates nothing.
     pub fn run(&mut self, system: &System, form: &Form) {
+        self.run_part(system, form, Part::All);
+    }
+
+    /// Evaluates the residual at `(time, y, yd, u)`, and outputs as far as [`Part`] says. Allocates nothing.
+    pub(super) fn run_part(&mut self, system: &System, form: &Form, part: Part) {
         self.stages(system);
-        self.elements(system, form);
+        self.elements(system, form, part);
         self.constraints(system, form);
         let (model, w) = (&system.model, &mut self.tree);
         let (nq, nv) = (model.layout.nq(), model.layout.nv());
@@ -266,15 +285,16 @@ impl<S: SystemScalar> Evaluation<S> {
     }
 
     /// Applies all elements: wrenches, joint efforts, rows, outputs.
-    fn elements(&mut self, system: &System, form: &Form) {
+    fn elements(&mut self, system: &System, form: &Form, part: Part) {
         self.tree.applied.fill(Default::default());
         self.joint_efforts.fill(S::zero());
-        for k in 0..system.elements.len() {
-            if form.silent.get(k) != Some(&true) {
+        for (k, element) in system.elements.iter().enumerate() {
+            let idle = part == Part::Forces && element.force.declared().tells_only;
+            if !idle && form.silent.get(k) != Some(&true) {
                 self.reads_rates[k] = self.element(system, k);
             }
         }
-        self.current = true;
+        (self.current, self.told) = (true, part == Part::All);
     }
 
     /// Applies one element. True where it has read an acceleration or the rate of a state.

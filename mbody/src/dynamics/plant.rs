@@ -1,7 +1,7 @@
 //! The assembled system in the vocabulary of `problem`: the only file of the engine that implements it.
 
 use super::closure::{Closure, Work};
-use super::evaluation::{Evaluation, Evaluations, Known, Maker};
+use super::evaluation::{Evaluation, Evaluations, Known, Maker, Part};
 use super::explicit::ExplicitSolver;
 use super::{Account, Element, Form, Formulation, System};
 use crate::scalar::{Lanes, PerScalar, SystemScalar};
@@ -70,6 +70,14 @@ impl TreePlant {
         let e = f64::pick_mut(&mut self.evaluations);
         load(e, at);
         e.run(&self.system, &self.form);
+        e
+    }
+
+    /// Evaluates at a point without those who only tell.
+    pub(super) fn residual_at(&mut self, at: At<'_>) -> &Evaluation<f64> {
+        let e = f64::pick_mut(&mut self.evaluations);
+        load(e, at);
+        e.run_part(&self.system, &self.form, Part::Forces);
         e
     }
 
@@ -160,7 +168,7 @@ impl Dae for TreePlant {
         &self.system.inputs
     }
     fn residual(&mut self, at: At<'_>, residual: &mut [f64]) -> Result<(), EvalError> {
-        residual.copy_from_slice(&self.evaluate_at(at).residual);
+        residual.copy_from_slice(&self.residual_at(at).residual);
         finite(residual)
     }
 }

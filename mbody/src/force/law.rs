@@ -101,6 +101,8 @@ pub struct Declared {
     pub spinning: Vec<BodyIndex>,
     /// Full signal names of the multipliers of constraints that the element reads, in the order of [`Evaluated::multiplier`].
     pub multipliers: Vec<String>,
+    /// Whether the element only tells: it exerts nothing, stores nothing and has no rows. Where outputs are not asked for, neither is it.
+    pub tells_only: bool,
 }
 
 /// Energy account of an element. With P the power that its wrenches and joint efforts deliver,
@@ -158,8 +160,15 @@ impl<S: SystemScalar> Evaluated<'_, S> {
     /// Velocity, in world axes, of the point of a body that is at `p_WQ`.
     #[inline]
     pub fn v_WQ(&self, body: BodyIndex, p_WQ: Vec3<S>) -> Vec3<S> {
+        self.motion_at(body, p_WQ).1
+    }
+
+    /// Angular velocity of a body, and velocity of its point that is at `p_WQ`, in world axes.
+    #[inline]
+    pub fn motion_at(&self, body: BodyIndex, p_WQ: Vec3<S>) -> (Vec3<S>, Vec3<S>) {
         let (X, V) = (self.X_WB(body), self.V_WB(body));
-        X.R * V.v + (X.R * V.w).cross(p_WQ - X.p)
+        let w = X.R * V.w;
+        (w, X.R * V.v + w.cross(p_WQ - X.p))
     }
 
     /// Position in the world of a point fixed in a body.

@@ -27,7 +27,7 @@ impl ForceLaw for PointSensor {
             ("acceleration_z", "m/s^2", "acceleration along z of the body"),
         ];
         let outputs = OUTPUTS.map(|(q, unit, about)| OutputDeclared { name: format!("{element}.{q}"), unit, about });
-        Declared { outputs: outputs.to_vec(), ..Default::default() }
+        Declared { outputs: outputs.to_vec(), tells_only: true, ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {
         let p = at.p_WQ(self.body, self.point);

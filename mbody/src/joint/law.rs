@@ -302,10 +302,15 @@ impl Joint {
     /// `H v`.
     #[inline]
     pub fn motion<S: SystemScalar>(&self, H: &[Twist<S>], v: &[S]) -> Twist<S> {
-        let Some(components) = &self.components else { return S::pick(&self.twins).motion(H, v) };
-        let mut V = Twist::zero();
-        components.iter().zip(v).for_each(|(&c, &x)| V.add_along(c, x));
-        V
+        self.moved(Twist::zero(), H, v)
+    }
+
+    /// `A + H v`.
+    #[inline]
+    pub fn moved<S: SystemScalar>(&self, mut A: Twist<S>, H: &[Twist<S>], v: &[S]) -> Twist<S> {
+        let Some(components) = &self.components else { return A + S::pick(&self.twins).motion(H, v) };
+        components.iter().zip(v).for_each(|(&c, &x)| A.add_along(c, x));
+        A
     }
 
     /// `H v` and `Ḣ v`.

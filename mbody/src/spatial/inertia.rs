@@ -166,6 +166,15 @@ impl<S: Real> Inertia<S> {
     }
 }
 
+/// Inverse of a symmetric tensor (xx, yy, zz, xy, xz, yz), by cofactors.
+#[inline(always)]
+fn symmetric_inverse<S: Real>(I: &[S; 6]) -> [S; 6] {
+    let [xx, yy, zz, xy, xz, yz] = *I;
+    let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
+    let per = (xx * a + xy * b + xz * c).recip();
+    [a, xx * zz - xz * xz, xx * yy - xy * xy, b, c, xy * xz - xx * yz].map(|cofactor| cofactor * per)
+}
+
 /// Articulated-body inertia: a general symmetric 6 × 6 in blocks `[[J, H], [Hᵀ, M]]` acting on (w; v).
 #[derive(Clone, Copy, Debug)]
 pub struct ArticulatedInertia<S> {
@@ -205,6 +214,25 @@ impl<S: Real> ArticulatedInertia<S> {
             symmetric_times(&self.J, V.w) + a.scaled(V.v.x) + b.scaled(V.v.y) + c.scaled(V.v.z),
             Vec3::new(a.dot(V.w), b.dot(V.w), c.dot(V.w)) + symmetric_times(&self.M, V.v),
         )
+    }
+
+    /// The motion that makes a wrench, `I⁻¹ F`, of an inertia that resists every motion: the linear block is eliminated first.
+    ///
+    /// `K = H M⁻¹`, `(J − K Hᵀ) w = n − K f`, `v = M⁻¹ (f − Hᵀ w)`.
+    #[inline(always)]
+    pub fn motion_under(&self, F: Wrench<S>) -> Twist<S> {
+        let (H, M) = (&self.H, symmetric_inverse(&self.M));
+        let of = |x: Vec3<S>| H[0].scaled(x.x) + H[1].scaled(x.y) + H[2].scaled(x.z);
+        let K = [of(Vec3::new(M[0], M[3], M[4])), of(Vec3::new(M[3], M[1], M[5])), of(Vec3::new(M[4], M[5], M[2]))];
+        let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+        let rest: [S; 6] = std::array::from_fn(|k| {
+            let (a, b) = pairs[k];
+            self.J[k] - (K[0][a] * H[0][b] + K[1][a] * H[1][b] + K[2][a] * H[2][b])
+        });
+        let moment = F.n - (K[0].scaled(F.f.x) + K[1].scaled(F.f.y) + K[2].scaled(F.f.z));
+        let w = symmetric_times(&symmetric_inverse(&rest), moment);
+        let force = F.f - Vec3::new(H[0].dot(w), H[1].dot(w), H[2].dot(w));
+        Twist::new(w, symmetric_times(&M, force))
     }
 
     /// Subtracts `U d⁻¹ Uᵀ` for one column: `scale` is 1/d.
@@ -260,5 +288,21 @@ impl<S: Real> ArticulatedInertia<S> {
         let B = [HA[1].scaled(p.z) - HA[2].scaled(p.y), HA[2].scaled(p.x) - HA[0].scaled(p.z), HA[0].scaled(p.y) - HA[1].scaled(p.x)];
         let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
         Self { J: std::array::from_fn(|k| J[k] + A[pairs[k].1][pairs[k].0] - B[pairs[k].1][pairs[k].0]), H: HA, M: *M }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The motion under a wrench takes this wrench.
+    #[test]
+    fn motions_under_wrenches_take_these_wrenches() {
+        let v = |a: f64| Vec3::new(a, a * a - 1.0, 2.0 - a);
+        let I =
+            ArticulatedInertia { J: [90.0, 80.0, 70.0, 4.0, 5.0, 6.0], H: [v(0.7), v(0.8), v(-0.9)], M: [9.0, 8.0, 7.0, 0.6, 0.5, 0.4] };
+        let F = Wrench::new(v(2.2), v(0.9));
+        let found = I.times(I.motion_under(F));
+        assert!((found.n - F.n).norm() < 1e-13 && (found.f - F.f).norm() < 1e-13, "{found:?}");
     }
 }

@@ -157,7 +157,7 @@ impl ForceLaw for SingleTrack {
             output("kinematic_curvature", "1/m", "curvature of the rear contact's path if no wheel slipped sideways, positive to the left"),
         ];
         let inputs = [torque].into_iter().chain(self.front.iter().chain(&self.rear).flat_map(Wheel::inputs)).collect();
-        Declared { inputs, outputs, ..Default::default() }
+        Declared { inputs, outputs, tells_only: true, ..Default::default() }
     }
     fn apply<S: SystemScalar>(&self, at: &Evaluated<'_, S>, out: &mut Effort<'_, S>) {
         let (V, r) = (at.speeds(self.base)[0], at.speeds(self.base)[2]);

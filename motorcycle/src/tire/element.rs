@@ -102,6 +102,7 @@ impl ForceLaw for Tire {
             limits: limits(element, &self.wheel, self.law.saturates()),
             ranges: ranges(element, self.law.fit()),
             spinning: vec![self.wheel.body],
+            tells_only: false,
             multipliers: match &self.carcass {
                 Carcass::Rigid(c) => vec![c.load.clone()],
                 _ => Vec::new(),

@@ -66,17 +66,8 @@ impl Wheel {
         let frame = ContactFrame::new(center, axis, &road.plane);
         let meridian = self.profile.meridian_at(&frame);
         let penetration = meridian.a * frame.cos_camber + meridian.b * frame.sin_camber - frame.center_height;
-        Rolling {
-            frame,
-            meridian,
-            penetration,
-            axis,
-            center,
-            center_velocity: at.v_WQ(self.carrier, center),
-            angular_velocity: at.w_WB(self.carrier),
-            spin: at.speed(self.body),
-            road,
-        }
+        let (angular_velocity, center_velocity) = at.motion_at(self.carrier, center);
+        Rolling { frame, meridian, penetration, axis, center, center_velocity, angular_velocity, spin: at.speed(self.body), road }
     }
 }
 

@@ -8,7 +8,7 @@
 //! first step: section II.4, algorithm (4.14).
 
 use crate::path::{Path, Reached, Roots, follow};
-use crate::step_control::{CUT, MAX_CUTS, Tolerances, factor, fitted};
+use crate::step_control::{CUT, Control, MAX_CUTS, Tolerances, factor, fitted};
 use problem::contract::{acceptable, check_times, finite};
 use problem::{EvalError, IntegrationEnding, IntegrationOptions, IntegrationOutcome, OdeMethod, OdeProblem, Sink};
 
@@ -46,6 +46,15 @@ pub struct DormandPrince {
     work: Work,
 }
 
+/// Adds h Σ wₛ kₛ.
+#[inline]
+fn add_weighted(sum: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+    for (weight, k) in weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0) {
+        let scale = h * weight;
+        sum.iter_mut().zip(k).for_each(|(x, k)| *x += scale * k);
+    }
+}
+
 /// Everything that depends on the size of the problem.
 #[derive(Debug, Default)]
 struct Work {
@@ -57,15 +66,21 @@ struct Work {
     stage: Vec<f64>,
     /// The same on the manifold.
     landed: Vec<f64>,
-    /// Coefficients of the continuous extension of the last step.
+    error: Vec<f64>,
+    /// Coefficients of the continuous extension of the last step; the first is the point at its begin.
     dense: [Vec<f64>; 5],
+    /// Whether the others are made: most steps have no sample inside.
+    extended: bool,
     /// Rates of samples.
     rates: Vec<f64>,
 }
 
 impl Work {
     fn resize(&mut self, size: usize) {
-        let all = [&mut self.y, &mut self.stage, &mut self.landed, &mut self.rates].into_iter().chain(&mut self.k).chain(&mut self.dense);
+        let all = [&mut self.y, &mut self.stage, &mut self.landed, &mut self.error, &mut self.rates]
+            .into_iter()
+            .chain(&mut self.k)
+            .chain(&mut self.dense);
         all.for_each(|vector| vector.resize(size, 0.0));
     }
 }
@@ -106,6 +121,7 @@ impl OdeMethod for DormandPrince {
             begin: times[0],
             end: times[0],
             step: options.first_step,
+            control: Control::new(ORDER),
             residuals: 0,
             rejected: 0,
             cuts: 0,
@@ -142,6 +158,7 @@ struct Run<'a> {
     end: f64,
     /// Length to be tried next.
     step: Option<f64>,
+    control: Control,
     residuals: usize,
     rejected: usize,
     cuts: usize,
@@ -173,44 +190,56 @@ impl Run<'_> {
 
     /// Evaluates the stages of a step of length h; the last point is left in `stage`. Returns the norm of the error.
     fn stages(&mut self, h: f64) -> Result<f64, EvalError> {
-        let Work { tolerances, y, k, stage, .. } = &mut *self.work;
+        let Work { tolerances, y, k, stage, error, .. } = &mut *self.work;
         for (s, (weights, node)) in A.iter().zip(C).enumerate() {
             let (known, next) = k.split_at_mut(s + 1);
             stage.copy_from_slice(y);
-            for (weight, k) in weights.iter().zip(known.iter()).filter(|(weight, _)| **weight != 0.0) {
-                stage.iter_mut().zip(k).for_each(|(x, k)| *x += h * weight * k);
-            }
+            add_weighted(stage, h, weights, known);
             self.residuals += 1;
             self.problem.rates(self.end + node * h, stage, &mut next[0])?;
             finite(&next[0])?;
         }
-        let error = |i: usize| h * E.iter().zip(&*k).map(|(weight, k)| weight * k[i]).sum::<f64>();
-        Ok(tolerances.norm(y, (0..y.len()).map(|i| (i, error(i)))))
+        error.fill(0.0);
+        add_weighted(error, h, &E, k);
+        Ok(tolerances.norm(y, error.iter().copied().enumerate()))
     }
 
     /// Makes the point in `stage`, brought onto the manifold, the end of the step; nothing but the extension changes where that fails.
     fn accept(&mut self, h: f64, end: f64) -> Result<(), EvalError> {
-        let Work { y, k, stage, landed, dense, .. } = &mut *self.work;
-        for i in 0..y.len() {
-            let change = stage[i] - y[i];
-            let bend = h * k[0][i] - change;
-            dense[0][i] = y[i];
-            dense[1][i] = change;
-            dense[2][i] = bend;
-            dense[3][i] = change - h * k[6][i] - bend;
-            dense[4][i] = h * D.iter().zip(&*k).map(|(weight, k)| weight * k[i]).sum::<f64>();
-        }
+        let Work { y, stage, landed, dense, extended, .. } = &mut *self.work;
+        dense[0].copy_from_slice(y);
+        *extended = false;
         landed.copy_from_slice(stage);
         self.problem.project(end, landed)?;
         finite(landed)?;
         if landed != stage {
+            // the extension belongs to the rates before
+            self.extend(h);
             self.residuals += 1;
+            let Work { landed, k, .. } = &mut *self.work;
             self.problem.rates(end, landed, &mut k[6])?;
             finite(&k[6])?;
         }
+        let Work { y, landed, .. } = &mut *self.work;
         y.copy_from_slice(landed);
         (self.begin, self.end) = (self.end, end);
         Ok(())
+    }
+
+    /// Makes the continuous extension of the last step, of length h, from its stages.
+    fn extend(&mut self, h: f64) {
+        let Work { k, stage, dense, extended, .. } = &mut *self.work;
+        if std::mem::replace(extended, true) {
+            return;
+        }
+        let [begin, change, bend, twist, last] = dense;
+        for i in 0..stage.len() {
+            change[i] = stage[i] - begin[i];
+            bend[i] = h * k[0][i] - change[i];
+            twist[i] = change[i] - h * k[6][i] - bend[i];
+        }
+        last.fill(0.0);
+        add_weighted(last, h, &D, k);
     }
 
     /// Tries a step; the norm of its error where that is too large.
@@ -239,7 +268,7 @@ impl Path for Run<'_> {
             let outcome = if end > from { self.attempt(h, end) } else { break };
             match outcome {
                 Ok(norm) if norm <= 1.0 => {
-                    let growth = factor(norm, ORDER);
+                    let growth = self.control.growth(norm);
                     self.step = Some(h * if rejected { growth.min(1.0) } else { growth });
                     return Ok(());
                 }
@@ -271,7 +300,9 @@ impl Path for Run<'_> {
             yd.copy_from_slice(&self.work.k[6]);
             return Ok(());
         }
-        let s = (time - self.begin) / (self.end - self.begin);
+        let h = self.end - self.begin;
+        self.extend(h);
+        let s = (time - self.begin) / h;
         let d = &self.work.dense;
         for (i, y) in y.iter_mut().enumerate() {
             *y = d[0][i] + s * (d[1][i] + (1.0 - s) * (d[2][i] + s * (d[3][i] + (1.0 - s) * d[4][i])));

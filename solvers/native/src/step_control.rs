@@ -8,6 +8,8 @@ use problem::IntegrationOptions;
 
 /// Share of the optimal length that is taken.
 const SAFETY: f64 = 0.9;
+/// Weight of the error of the step before.
+const BETA: f64 = 0.04;
 /// Bounds of the change of length from one step to the next.
 const CHANGE: (f64, f64) = (0.2, 5.0);
 /// How often a step is shortened before a point counts as impossible to evaluate; as many times as IDA tries.
@@ -58,6 +60,30 @@ impl Tolerances {
 /// Factor of the next step after one whose error has this norm, for errors of order `order` in h.
 pub(crate) fn factor(norm: f64, order: f64) -> f64 {
     if norm.is_finite() { (SAFETY * norm.powf(-1.0 / order)).clamp(CHANGE.0, CHANGE.1) } else { CHANGE.0 }
+}
+
+/// Chooses lengths by the errors of the last two steps: proportional and integral control, after which fewer steps are rejected.
+///
+/// h ← h · 0.9 ‖eₙ‖^(−(1/(q+1) − 3/4 β)) ‖eₙ₋₁‖^β, β = 0.04, between a fifth and ten times h.
+#[derive(Debug)]
+pub(crate) struct Control {
+    order: f64,
+    before: f64,
+}
+
+impl Control {
+    /// For errors of order `order` in h.
+    pub(crate) fn new(order: f64) -> Self {
+        Self { order, before: 1e-4 }
+    }
+
+    /// Factor of the next step after one that was accepted.
+    pub(crate) fn growth(&mut self, norm: f64) -> f64 {
+        let norm = norm.max(1e-12);
+        let growth = SAFETY * norm.powf(0.75 * BETA - 1.0 / self.order) * self.before.powf(BETA);
+        self.before = norm.max(1e-4);
+        growth.clamp(CHANGE.0, 10.0)
+    }
 }
 
 /// The step from `time` that neither passes `limit` nor leaves a scrap before it.

@@ -100,6 +100,13 @@ impl Conformity {
         let mut agreement = Agreement::on("elements: balance of power");
         self.motions(|name, mut motion| {
             let system = motion.plant.system().clone();
+            let (full, _) = motion.evaluate();
+            let mut alone = vec![0.0; full.len()];
+            let at = problem::At { time: 0.0, y: &motion.y, yd: &motion.yd, u: &motion.u };
+            assert!(
+                motion.plant.residual(at, &mut alone).is_ok() && alone == full,
+                "{name} exerts something, though it says that it only tells"
+            );
             let delivered =
                 motion.plant.evaluate_at(problem::At { time: 0.0, y: &motion.y, yd: &motion.yd, u: &motion.u }).delivered_power(&system);
             let n = motion.bare.unknowns().len();

@@ -71,7 +71,7 @@ impl Direct {
         let system = plant.system().clone();
         let (nq, nv, m) = (system.model.layout.nq(), system.model.layout.nv(), system.multipliers.len());
         y[nq + nv..].fill(0.0);
-        plant.evaluate_at(At { time, y, yd: still, u });
+        plant.residual_at(At { time, y, yd: still, u });
         self.mass(plant);
         // multipliers in units in which J is as large as M
         let scale = self.matrix.view((0, 0), (nv, nv)).amax().max(1e-300);

@@ -76,7 +76,7 @@ impl Newton {
         for _ in 0..MOST_ITERATIONS {
             let at = At { time, y, yd, u };
             match self.factors {
-                Some(_) => self.residual.copy_from_slice(&plant.evaluate_at(at).residual),
+                Some(_) => self.residual.copy_from_slice(&plant.residual_at(at).residual),
                 None => {
                     self.derivatives(plant, at)?;
                     self.factorize(first);
