@@ -164,7 +164,7 @@ impl<S: SystemScalar> Evaluated<'_, S> {
     }
 
     /// Angular velocity of a body, and velocity of its point that is at `p_WQ`, in world axes.
-    #[inline]
+    #[inline(always)]
     pub fn motion_at(&self, body: BodyIndex, p_WQ: Vec3<S>) -> (Vec3<S>, Vec3<S>) {
         let (X, V) = (self.X_WB(body), self.V_WB(body));
         let w = X.R * V.w;
@@ -264,7 +264,7 @@ impl<S: SystemScalar> Effort<'_, S> {
     }
 
     /// Force at a point and a free moment on a body, in the world.
-    #[inline]
+    #[inline(always)]
     pub fn force_and_moment(&mut self, body: BodyIndex, p_WQ: Vec3<S>, f_W: Vec3<S>, n_W: Vec3<S>) {
         if body == BodyIndex::WORLD {
             return;

@@ -1,7 +1,6 @@
 //! Everything with a name: unknowns, their rates, inputs and outputs of a plant.
 
 use problem::{Plant, Signal};
-use std::collections::HashMap;
 
 /// One scalar of a plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -28,7 +27,6 @@ pub(crate) fn rate_unit(unit: &str) -> String {
 /// The names of a plant.
 #[derive(Clone, Debug)]
 pub struct Variables {
-    by_name: HashMap<String, Variable>,
     unknowns: Vec<Signal>,
     inputs: Vec<Signal>,
     outputs: Vec<Signal>,
@@ -37,22 +35,21 @@ pub struct Variables {
 impl Variables {
     /// Collects the names of a plant.
     pub fn of(plant: &dyn Plant) -> Self {
-        let unknowns: Vec<Signal> = plant.unknowns().iter().map(|u| u.signal.clone()).collect();
-        let inputs: Vec<Signal> = plant.inputs().iter().map(|i| i.signal.clone()).collect();
-        let outputs = plant.outputs().to_vec();
-        let mut by_name = HashMap::new();
-        for (i, s) in unknowns.iter().enumerate() {
-            by_name.insert(s.name.clone(), Variable::Unknown(i));
-            by_name.insert(format!("rate({})", s.name), Variable::Rate(i));
-        }
-        by_name.extend(inputs.iter().enumerate().map(|(i, s)| (s.name.clone(), Variable::Input(i))));
-        by_name.extend(outputs.iter().enumerate().map(|(i, s)| (s.name.clone(), Variable::Output(i))));
-        Self { by_name, unknowns, inputs, outputs }
+        let unknowns = plant.unknowns().iter().map(|u| u.signal.clone()).collect();
+        let inputs = plant.inputs().iter().map(|i| i.signal.clone()).collect();
+        Self { unknowns, inputs, outputs: plant.outputs().to_vec() }
     }
 
     /// The variable called `name`; the rate of an unknown is `rate(name)`.
     pub fn find(&self, name: &str) -> Option<Variable> {
-        self.by_name.get(name).copied()
+        let among = |signals: &[Signal], name: &str| signals.iter().position(|s| s.name == name);
+        if let Some(of) = name.strip_prefix("rate(").and_then(|rest| rest.strip_suffix(')')) {
+            return among(&self.unknowns, of).map(Variable::Rate);
+        }
+        among(&self.outputs, name)
+            .map(Variable::Output)
+            .or_else(|| among(&self.inputs, name).map(Variable::Input))
+            .or_else(|| among(&self.unknowns, name).map(Variable::Unknown))
     }
 
     /// The name of a variable.
@@ -92,7 +89,8 @@ impl Variables {
 
     /// All names, sorted, without rates.
     pub fn names(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = self.by_name.keys().map(String::as_str).filter(|n| !n.starts_with("rate(")).collect();
+        let all = self.unknowns.iter().chain(&self.inputs).chain(&self.outputs);
+        let mut names: Vec<&str> = all.map(|s| s.name.as_str()).collect();
         names.sort_unstable();
         names
     }
