@@ -108,9 +108,9 @@ pub fn pencil(E: &DMatrix<f64>, A: &DMatrix<f64>, nominal: &[f64]) -> Result<Spe
     let mut left = re.zip_map(&im, Complex::new);
     let sensitivity = (0..n).map(|k| X.column(k).norm() * Y.column(k).norm() / Y.column(k).dotc(&X.column(k)).norm()).collect::<Vec<_>>();
     let size = M.norm();
-    let complex_E = E.map(|e| Complex::new(e, 0.0));
+    let moved = times(E, &right);
     for group in groups(&values, size) {
-        biorthogonal(&mut left, &right, &complex_E, &group);
+        biorthogonal(&mut left, &moved, &group);
     }
     let residual = residual((E, A), &T, &values, &right, &left);
     match residual < ACCURATE {
@@ -251,10 +251,18 @@ fn groups(values: &[Complex<f64>], size: f64) -> Vec<Vec<usize>> {
     groups
 }
 
-/// Makes `Wᴴ E V = 1` for the vectors of one eigenvalue; leaves them at unit length where it is defective.
-fn biorthogonal(left: &mut Vectors, right: &Vectors, E: &Vectors, group: &[usize]) {
-    let (W, V) = (left.select_columns(group), right.select_columns(group));
-    let P = W.adjoint() * E * V;
+/// A real matrix times complex vectors.
+fn times(M: &DMatrix<f64>, vectors: &Vectors) -> Vectors {
+    let n = vectors.ncols();
+    let parts = DMatrix::from_fn(vectors.nrows(), 2 * n, |i, j| if j < n { vectors[(i, j)].re } else { vectors[(i, j - n)].im });
+    let product = M * parts;
+    DMatrix::from_fn(M.nrows(), n, |i, j| Complex::new(product[(i, j)], product[(i, j + n)]))
+}
+
+/// Makes `Wᴴ E V = 1` for the vectors of one eigenvalue, `moved` being E times all V; leaves them at unit length where it is defective.
+fn biorthogonal(left: &mut Vectors, moved: &Vectors, group: &[usize]) {
+    let W = left.select_columns(group);
+    let P = W.adjoint() * moved.select_columns(group);
     let inverse = P.clone().try_inverse().filter(|i| i.iter().all(|e| e.re.is_finite() && e.im.is_finite()));
     let unit = || DMatrix::from_fn(group.len(), group.len(), |i, j| Complex::new(if i == j { 1.0 / W.column(i).norm() } else { 0.0 }, 0.0));
     let normalized = &W * inverse.filter(|i| i.norm() * P.norm() < DEFECTIVE).map_or_else(unit, |i| i.adjoint());
@@ -267,12 +275,12 @@ fn biorthogonal(left: &mut Vectors, right: &Vectors, E: &Vectors, group: &[usize
 fn residual((E, A): (&DMatrix<f64>, &DMatrix<f64>), T: &[f64], values: &[Complex<f64>], right: &Vectors, left: &Vectors) -> f64 {
     let n = values.len();
     let row_scale: Vec<f64> = (0..n).map(|i| (0..n).map(|j| (A[(i, j)].abs() + E[(i, j)].abs()) * T[j]).fold(0.0, f64::max)).collect();
-    let scaled = |m: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| Complex::new(m[(i, j)] * T[j] / row_scale[i], 0.0));
+    let scaled = |m: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| m[(i, j)] * T[j] / row_scale[i]);
     let (A, E) = (scaled(A), scaled(E));
     let (size_A, size_E) = (A.norm(), E.norm());
     let X = DMatrix::from_fn(n, n, |i, j| right[(i, j)] / T[i]);
     let W = DMatrix::from_fn(n, n, |i, j| left[(i, j)] * row_scale[i]);
-    let (right, left) = ((&A * &X, &E * &X), (A.adjoint() * &W, E.adjoint() * &W));
+    let (right, left) = ((times(&A, &X), times(&E, &X)), (times(&A.transpose(), &W), times(&E.transpose(), &W)));
     let relative = |(Av, Ev): &(Vectors, Vectors), v: &Vectors, k: usize, s: Complex<f64>| {
         (Av.column(k) - Ev.column(k) * s).norm() / ((size_A + size_E * s.norm()) * v.column(k).norm())
     };

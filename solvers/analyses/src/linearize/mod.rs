@@ -353,9 +353,11 @@ fn assemble(
     let is_bound = |i: usize| bound.iter().find(|(input, _)| *input == i || plant.inputs()[i].rate == Some(*input));
     let kept_inputs: Vec<usize> = (0..plant.inputs().len()).filter(|&i| is_bound(i).is_none()).collect();
     let columns: Vec<usize> = kept_inputs.iter().map(|i| tableau.inputs.start + i).collect();
-    let by_rates = |rows: &[usize]| tableau.block(rows, &tableau.rates) * &split.S;
+    // where nothing depends, S is the identity
+    let on_states = |block: DMatrix<f64>| if split.dependent.is_empty() { block } else { block * &split.S };
+    let by_rates = |rows: &[usize]| on_states(tableau.block(rows, &tableau.rates));
     let by_states = |rows: &[usize]| {
-        let steady = tableau.block(rows, &tableau.states) * &split.S;
+        let steady = on_states(tableau.block(rows, &tableau.states));
         if split.S_rate.iter().all(|e| *e == 0.0) { steady } else { steady + tableau.block(rows, &tableau.rates) * &split.S_rate }
     };
     let by_inputs = |rows: &[usize]| tableau.M.select_rows(rows).select_columns(&columns);
@@ -371,9 +373,17 @@ fn assemble(
     let rates = tableau::solve(&E, &right, &scale).map_err(|shares| LinearizeError::NoInertia {
         together: shares.iter().map(|&k| format!("`{}`", states[k].signal.name)).collect(),
     })?;
-    let through = by_rates(&watched) * rates;
-    let C = by_states(&watched) + through.columns(0, A.ncols());
-    let D = by_inputs(&watched) + through.columns(A.ncols(), B.ncols());
+    let (mut C, mut D) = (by_states(&watched), by_inputs(&watched));
+    // few signals depend on rates
+    let of_rates = by_rates(&watched);
+    let seeing_rates: Vec<usize> = (0..watched.len()).filter(|&k| of_rates.row(k).iter().any(|e| *e != 0.0)).collect();
+    let through = of_rates.select_rows(&seeing_rates) * rates;
+    for (row, &k) in seeing_rates.iter().enumerate() {
+        let mut of_states = C.row_mut(k);
+        of_states += through.row(row).columns(0, A.ncols());
+        let mut of_inputs = D.row_mut(k);
+        of_inputs += through.row(row).columns(A.ncols(), B.ncols());
+    }
 
     let mut unknowns = DMatrix::zeros(plant.unknowns().len(), states.len());
     let mut unknowns_by_inputs = DMatrix::zeros(plant.unknowns().len(), kept_inputs.len());
