@@ -83,11 +83,9 @@ fn write_outcome(history: &History, outcome: &Outcome, options: &Options, out: &
         true => outcome.backend.to_owned(),
         false => format!("{}, {} form", outcome.backend, outcome.formulation),
     };
-    let linear = match s.products {
-        0 => format!("{} Jacobians", s.jacobians),
-        products => format!("{products} products"),
-    };
-    let counts = format!("{} steps, {} rejected, {} residuals, {linear}", s.steps, s.rejected + s.convergence_failures, s.residuals);
+    let products = if s.products > 0 { format!(", {} products", s.products) } else { String::new() };
+    let rejected = s.rejected + s.convergence_failures;
+    let counts = format!("{} steps, {rejected} rejected, {} residuals, {} Jacobians{products}", s.steps, s.residuals, s.jacobians);
     let tolerance = format!("relative tolerance {:e}", outcome.relative_tolerance);
     writeln!(out, "method: {method}, {tolerance}; {counts}, {} ms", number((outcome.wall * 1e4).round() / 10.0))?;
     let drifts = [("coordinates", &outcome.drift.position), ("velocities", &outcome.drift.velocity)];
