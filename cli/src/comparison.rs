@@ -7,6 +7,7 @@ use crate::{Failure, maneuver, motion, plan, steady};
 use mbody::dynamics::System;
 use motorcycle::maneuver::Maneuver;
 use problem::{Derivatives, Effort, LinearSolver};
+use rayon::ThreadPoolBuilder;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -198,7 +199,7 @@ fn energy_drift(history: &History) -> Result<f64, Failure> {
     })
 }
 
-/// A sweep of steady states by every solver.
+/// A sweep of steady states by every solver, on one core.
 ///
 /// # Errors
 /// The request as a whole is impossible.
@@ -209,6 +210,8 @@ pub fn sweeps(
     backends: &[String],
     repeats: usize,
 ) -> Result<Comparison, Failure> {
+    // solvers are timed, not cores
+    let alone = ThreadPoolBuilder::new().num_threads(1).build().map_err(|e| Failure::Argument(e.to_string()))?;
     let mut rows = Vec::new();
     let mut reference: Option<steady::Steady> = None;
     for name in backends {
@@ -216,7 +219,7 @@ pub fn sweeps(
         let mut found = None;
         for _ in 0..repeats {
             let began = Instant::now();
-            found = Some(steady::run(request, system, name, "compare")?);
+            found = Some(alone.install(|| steady::run(request, system, name, "compare"))?);
             walls.push(began.elapsed().as_secs_f64());
         }
         let Some(found) = found else { continue };
@@ -257,6 +260,5 @@ pub fn sweeps(
     }
     let problem = format!("{} steady states", rows.first().map_or(0, |r| r.steps));
     let first = backends.first().map_or_else(|| backend::ALGEBRAIC[0].name.to_owned(), Clone::clone);
-    let warnings = vec!["all cores take part in a sweep of steady states; `RAYON_NUM_THREADS=1` makes it one".to_owned()];
-    Ok(Comparison { model: model.to_owned(), problem, reference: first, in_time: false, rows, warnings })
+    Ok(Comparison { model: model.to_owned(), problem, reference: first, in_time: false, rows, warnings: Vec::new() })
 }
