@@ -7,7 +7,7 @@ use super::System;
 use super::form::{Form, Formulation};
 use crate::algorithm::{aba::aba, energy, kinematics, rnea::rnea};
 use crate::constraint::{Level, Moment, RowValue, apply_wrench};
-use crate::force::{Effort, Energy, Evaluated};
+use crate::force::{Effort, Energy, Evaluated, Force};
 use crate::model::Model;
 use crate::scalar::{Family, Make, SystemScalar};
 use crate::spatial::{Pose, Wrench};
@@ -300,6 +300,12 @@ impl<S: SystemScalar> Evaluation<S> {
     /// Applies one element. True where it has read an acceleration or the rate of a state.
     #[inline]
     fn element(&mut self, system: &System, k: usize) -> bool {
+        self.show(system, k, |force, at, out| force.apply(at, out)).1
+    }
+
+    /// Shows one element the system, and tells whether it has read an acceleration or the rate of a state. The stages must be filled.
+    #[inline(always)]
+    fn show<T>(&mut self, system: &System, k: usize, body: impl FnOnce(&Force, &Evaluated<'_, S>, &mut Effort<'_, S>) -> T) -> (T, bool) {
         let (model, w, element) = (&system.model, &mut self.tree, &system.elements[k]);
         let first = model.layout.nq() + model.layout.nv();
         let states = first + element.states.start..first + element.states.end;
@@ -327,45 +333,21 @@ impl<S: SystemScalar> Evaluation<S> {
             rows: &mut self.residual[states],
             outputs: &mut self.outputs[element.outputs.clone()],
         };
-        element.force.apply(&at, &mut out);
-        reads_rates.get()
+        (body(&element.force, &at, &mut out), reads_rates.get())
     }
 
     /// Energy account at `(time, y, yd, u)`; fills the kinematic stages itself.
     pub fn account(&mut self, system: &System) -> Account<S> {
         self.stages(system);
-        let (model, w) = (&system.model, &self.tree);
         let mut sum = Energy::default();
         for k in 0..system.elements.len() {
-            let e = self.element_energy(system, k);
+            let (e, _) = self.show(system, k, |force, at, _| force.energy(at));
             sum.stored += e.stored;
             sum.supplied += e.supplied;
             sum.dissipated += e.dissipated;
         }
+        let (model, w) = (&system.model, &self.tree);
         Account { kinetic: energy::kinetic(model, &w.velocity), gravity: energy::potential(model, &w.world), elements: sum }
-    }
-
-    /// Energy account of one element; the stages must be filled.
-    fn element_energy(&self, system: &System, k: usize) -> Energy<S> {
-        let (model, w, element) = (&system.model, &self.tree, &system.elements[k]);
-        let first = model.layout.nq() + model.layout.nv();
-        let states = first + element.states.start..first + element.states.end;
-        let at = Evaluated {
-            model,
-            time: self.time,
-            position: &w.position,
-            world: &w.world,
-            velocity: &w.velocity,
-            acceleration: &w.acceleration,
-            states: &self.y[states.clone()],
-            state_rates: &self.yd[states],
-            inputs: &self.u,
-            input_map: &element.inputs,
-            multipliers: &self.y[system.base_unknowns.len()..],
-            multiplier_map: &element.multipliers,
-            reads_rates: &Cell::new(false),
-        };
-        element.force.energy(&at)
     }
 
     /// Power that the elements deliver to the tree at the last evaluated point, W.

@@ -91,20 +91,22 @@ impl TreePlant {
         e.forward(&self.system, &self.form, rates);
     }
 
-    /// Writes the outputs at a point. Unless the last evaluation was made there, `otherwise` says what to do; false where that was nothing.
-    pub(super) fn observe_at(&mut self, at: At<'_>, otherwise: Otherwise, outputs: &mut [f64]) -> bool {
-        let e = f64::pick_mut(&mut self.evaluations);
-        let bodies = e.y == at.y;
-        let known = match bodies && e.current && e.time == at.time && e.u == at.u {
-            true => Known::Elements,
-            false if otherwise == Otherwise::Leave => return false,
-            false if bodies => Known::Bodies,
+    /// What the last evaluation left at a point.
+    pub(super) fn known_at(&self, at: At<'_>) -> Known {
+        let e = f64::pick(&self.evaluations);
+        match e.y == at.y {
+            true if e.current && e.time == at.time && e.u == at.u => Known::Elements,
+            true => Known::Bodies,
             false => Known::Nothing,
-        };
+        }
+    }
+
+    /// Writes the outputs at a point, given what is known there.
+    pub(super) fn observe_at(&mut self, at: At<'_>, known: Known, outputs: &mut [f64]) {
+        let e = f64::pick_mut(&mut self.evaluations);
         load(e, at);
         e.observe(&self.system, &self.form, known);
         outputs.copy_from_slice(&e.outputs);
-        true
     }
 
     /// The evaluation of plain numbers, as the last point left it.
@@ -130,15 +132,6 @@ impl TreePlant {
         let rate = (a.kinetic + a.gravity + a.elements.stored).derivative(0);
         (rate, self.account_at(at))
     }
-}
-
-/// What to do about outputs at a point where nothing was evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Otherwise {
-    /// Evaluate them.
-    Evaluate,
-    /// Leave them.
-    Leave,
 }
 
 /// Loads a point without derivatives.
@@ -187,7 +180,7 @@ impl Outputs for TreePlant {
         // where rates were just solved for, most is known; what is silent here is not silent there
         let explicit = self.explicit.as_mut().filter(|_| self.form.silent.is_empty());
         if !explicit.is_some_and(|explicit| explicit.observe_again(at, outputs)) {
-            self.observe_at(at, Otherwise::Evaluate, outputs);
+            self.observe_at(at, self.known_at(at), outputs);
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ mod articulated;
 mod direct;
 mod newton;
 
-use super::plant::Otherwise;
+use super::evaluation::Known;
 use super::{Formulation, System, TreePlant};
 use along::Along;
 use direct::Direct;
@@ -68,7 +68,12 @@ impl ExplicitSolver {
     pub(super) fn observe_again(&mut self, at: At<'_>, outputs: &mut [f64]) -> bool {
         // of unknowns that only other formulations have, outputs know nothing
         let n = self.plant.unknowns().len();
-        self.plant.observe_at(At { y: &at.y[..n], yd: &at.yd[..n], ..at }, Otherwise::Leave, outputs)
+        let at = At { y: &at.y[..n], yd: &at.yd[..n], ..at };
+        let known = self.plant.known_at(at);
+        if known == Known::Elements {
+            self.plant.observe_at(at, known, outputs);
+        }
+        known == Known::Elements
     }
 
     /// Writes derivatives of what [`ExplicitSolver::solve`] overwrites, along all seeds.
