@@ -110,7 +110,7 @@ pub fn aba<S: SystemScalar>(model: &Model, w: &mut Workspace<S>) {
                 pa += w.U[first + a].scaled(x[a]);
             }
         }
-        w.articulated[p].add(&Ia.in_parent(X));
+        w.articulated[p].add(&X.articulated_to_parent(&Ia));
         w.articulated_bias[p] += X.wrench_to_parent(pa);
     }
     // outward: accelerations

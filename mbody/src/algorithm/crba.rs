@@ -18,7 +18,7 @@ pub fn crba<S: SystemScalar>(model: &Model, position: &Position<S>, composite: &
     for (i, body) in model.bodies.iter().enumerate().skip(1).rev() {
         let p = body.parent.0;
         if p != 0 {
-            let in_parent = composite[i].in_parent(body.turned(&position.X_PB[i]));
+            let in_parent = body.turned(&position.X_PB[i]).inertia_to_parent(&composite[i]);
             composite[p] = composite[p].plus(&in_parent);
         }
         let H = body.joint.columns(&position.H[body.v.clone()]);

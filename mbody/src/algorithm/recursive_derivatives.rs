@@ -120,7 +120,7 @@ impl RecursiveDerivatives {
             X.p -= origin;
             let Carried { V: V_P, A: A_P, .. } = carried[body.parent.0];
             let (V, A) = (X.twist_to_parent(w.velocity.V_WB[i]), X.twist_to_parent(w.acceleration.A_WB[i]));
-            let inertia = body.inertia.in_parent(Turned::new(&X, Turn::Any));
+            let inertia = Turned::new(&X, Turn::Any).inertia_to_parent(&body.inertia);
             let momentum = inertia.times(V);
             let F = inertia.times(A) + V.cross_star(momentum);
             carried[i] = Carried { V, A, inertia, T: block(&inertia, V), momentum: momentum.f, F };

@@ -3,7 +3,7 @@
 //! A rigid body is (m, h = m c, I about the origin); `I = I_c − m [c]×[c]×` (Featherstone, section 2.13).
 
 use super::turn::Turning;
-use super::{Pose, Rotation, Turned, Twist, Vec3, Wrench};
+use super::{Pose, Rotation, Twist, Vec3, Wrench};
 use crate::scalar::Real;
 use nalgebra::Matrix3;
 
@@ -132,12 +132,6 @@ impl<S: Real> Inertia<S> {
         Self { m: self.m + b.m, h: self.h + b.h, I: std::array::from_fn(|k| self.I[k] + b.I[k]) }
     }
 
-    /// The same body in frame A, given the pose of its frame B in A.
-    #[inline(always)]
-    pub fn in_parent(&self, X_AB: Turned<'_, S>) -> Self {
-        X_AB.inertia_to_parent(self)
-    }
-
     /// The same body in turned axes.
     #[inline(always)]
     pub(super) fn turned<T: Turning>(&self, R: &Rotation<S>) -> Self {
@@ -260,12 +254,6 @@ impl<S: Real> ArticulatedInertia<S> {
         for k in 0..3 {
             self.H[k] += b.H[k];
         }
-    }
-
-    /// The same inertia in frame A, given the pose of its frame B in A.
-    #[inline(always)]
-    pub fn in_parent(&self, X_AB: Turned<'_, S>) -> Self {
-        X_AB.articulated_to_parent(self)
     }
 
     /// The same inertia in turned axes.
