@@ -60,6 +60,13 @@ impl<'a, 'p> Whole<'a, 'p> {
         Ok((&self.y, &self.yd))
     }
 
+    /// Writes the rates of the states.
+    fn rates(&mut self, time: f64, states: &[f64], rates: &mut [f64]) -> Result<(), EvalError> {
+        self.complete(time, states)?;
+        rates.iter_mut().zip(&self.states).for_each(|(rate, &i)| *rate = self.yd[i]);
+        Ok(())
+    }
+
     /// The next point is completed anew, even if it is the last one.
     pub(super) fn forget(&mut self) {
         self.completed = None;
@@ -175,11 +182,8 @@ impl OdeProblem for ExplicitForm<'_, '_> {
         &self.absolute_tolerance
     }
     fn rates(&mut self, time: f64, y: &[f64], yd: &mut [f64]) -> Result<(), EvalError> {
-        let completed = self.whole.complete(time, y).map(|_| ());
+        let completed = self.whole.rates(time, y, yd);
         self.failure = completed.err();
-        for (rate, &i) in yd.iter_mut().zip(&self.whole.states) {
-            *rate = self.whole.yd[i];
-        }
         completed
     }
     fn jacobian(&mut self, time: f64, y: &[f64], jacobian: &mut Matrix) -> Result<(), EvalError> {
@@ -195,15 +199,7 @@ impl OdeProblem for ExplicitForm<'_, '_> {
                 }
                 Ok(())
             }),
-            Tangent::Differences { columns, .. } => columns.quotients(
-                y,
-                |y, _, rates| {
-                    whole.complete(time, y)?;
-                    rates.iter_mut().zip(&whole.states).for_each(|(rate, &i)| *rate = whole.yd[i]);
-                    Ok(())
-                },
-                jacobian,
-            ),
+            Tangent::Differences { columns, .. } => columns.quotients(y, |y, _, rates| whole.rates(time, y, rates), jacobian),
         };
         self.failure = differentiated.err();
         differentiated
@@ -218,16 +214,7 @@ impl OdeProblem for ExplicitForm<'_, '_> {
                 product.iter_mut().zip(&whole.states).for_each(|(entry, &i)| *entry = solved[(i, 0)]);
                 Ok(())
             }),
-            Tangent::Differences { along, .. } => along.product(
-                y,
-                v,
-                |y, rates| {
-                    whole.complete(time, y)?;
-                    rates.iter_mut().zip(&whole.states).for_each(|(rate, &i)| *rate = whole.yd[i]);
-                    Ok(())
-                },
-                product,
-            ),
+            Tangent::Differences { along, .. } => along.product(y, v, |y, rates| whole.rates(time, y, rates), product),
         };
         self.failure = differentiated.err();
         differentiated
