@@ -2,7 +2,10 @@
 //!
 //! ‖e‖ = √(Σ (eᵢ/(rtol |yᵢ| + atolᵢ))² / n); a step is accepted where it is below one. Next length: h · min(5, max(1/5, 0.9 ‖e‖^(−1/(q+1)))).
 //!
-//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993, section II.4.
+//! [`Control`] looks at the step before too.
+//!
+//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993, section II.4 and the code DOPRI5, whose figures
+//! [`Control`] has; K. Gustafsson, *Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods*, ACM TOMS 17, 1991, 533–554.
 
 use problem::IntegrationOptions;
 
@@ -10,6 +13,10 @@ use problem::IntegrationOptions;
 const SAFETY: f64 = 0.9;
 /// Weight of the error of the step before.
 const BETA: f64 = 0.04;
+/// Smallest error that it is taken for, and that of the step before the first.
+const LEAST: f64 = 1e-4;
+/// Largest growth where the step before is looked at.
+const GROWTH: f64 = 10.0;
 /// Bounds of the change of length from one step to the next.
 const CHANGE: (f64, f64) = (0.2, 5.0);
 /// How often a step is shortened before a point counts as impossible to evaluate; as many times as IDA tries.
@@ -74,15 +81,14 @@ pub(crate) struct Control {
 impl Control {
     /// For errors of order `order` in h.
     pub(crate) fn new(order: f64) -> Self {
-        Self { order, before: 1e-4 }
+        Self { order, before: LEAST }
     }
 
     /// Factor of the next step after one that was accepted.
     pub(crate) fn growth(&mut self, norm: f64) -> f64 {
-        let norm = norm.max(1e-12);
         let growth = SAFETY * norm.powf(0.75 * BETA - 1.0 / self.order) * self.before.powf(BETA);
-        self.before = norm.max(1e-4);
-        growth.clamp(CHANGE.0, 10.0)
+        self.before = norm.max(LEAST);
+        growth.clamp(CHANGE.0, GROWTH)
     }
 }
 
