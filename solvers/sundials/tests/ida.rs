@@ -82,7 +82,7 @@ fn the_pendulum_of_index_two() {
         let options = IntegrationOptions { linear_solver, ..tolerance(relative) };
         let record = ida(&mut Pendulum { projected: false, watched: false }, &times, (&y, &yd), &options).finished(&times);
         let error = record.deviation(Pendulum::exact);
-        // steps are others, and errors differ by less than their size
+        // with fresh products the iteration ends sooner and leaves more: 1.03e-7 at 1e-10, and no less with tighter linear solves
         let close = if linear_solver == LinearSolver::Gmres { 2.0 * close } else { close };
         assert!(error < close, "{error:e} at {relative:e}");
         // λ = v² − g y, and the second multiplier vanishes
