@@ -211,7 +211,7 @@ pub fn sweeps(
     repeats: usize,
 ) -> Result<Comparison, Failure> {
     // solvers are timed, not cores
-    let alone = ThreadPoolBuilder::new().num_threads(1).build().map_err(|e| Failure::Argument(e.to_string()))?;
+    let alone = ThreadPoolBuilder::new().num_threads(1).build().map_err(|e| Failure::Unreached(format!("no thread can be made: {e}")))?;
     let mut rows = Vec::new();
     let mut reference: Option<steady::Steady> = None;
     for name in backends {
