@@ -37,7 +37,7 @@ pub const ALGEBRAIC: &[AlgebraicBackend] = &[
     },
     AlgebraicBackend {
         name: "kinsol_gmres",
-        about: "SUNDIALS KINSOL: Newton–Krylov with line search, products with the exact derivative instead of matrices",
+        about: "SUNDIALS KINSOL: Newton–Krylov with line search, products with the exact derivative, matrices renewed every ten iterations as preconditioners",
         make: || Box::new(sundials::Kinsol::new(sundials::Strategy::Krylov)),
     },
     AlgebraicBackend {

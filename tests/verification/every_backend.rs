@@ -9,7 +9,7 @@ use fastbike::{maneuver, motion};
 use problem::{Derivatives, LinearSolver};
 use validation::course::system;
 use validation::evidence::Row;
-use validation::vehicle::running;
+use validation::vehicle::{leaning, running};
 
 /// Rows of the table.
 pub const EVIDENCE: &[Row] = validation::evidence![
@@ -31,7 +31,7 @@ pub const EVIDENCE: &[Row] = validation::evidence![
         "relative tolerance 1e-6: errors below the bounds of matrices"
     ),
     steady_states_by_every_solver_agree => (
-        "every solver of algebraic systems finds the same steady turns of moto11",
+        "every solver of algebraic systems finds the same steady turns of moto11, ref11 and gsxr1000, from 10 to 50 m/s and to 29 degrees",
         "KINSOL with line search",
         "1e-7 in nominal values: all end below a residual of 1e-9"
     ),
@@ -142,16 +142,12 @@ fn exact_matrices_and_differences_lead_to_the_same_motion() {
 #[test]
 fn steady_states_by_every_solver_agree() {
     let names: Vec<String> = ALGEBRAIC.iter().map(|backend| backend.name.to_owned()).collect();
-    let request = running(&[15.0, 20.0, 25.0, 30.0]);
-    let compared = sweeps(&request, &system("moto11"), "moto11", &names, 1).unwrap_or_else(|_| panic!("a sweep"));
-    for row in &compared.rows {
-        assert!(
-            row.rejected == 0 && row.error.max(0.0) < 1e-7,
-            "{}: {} of {} missed, {:.1e}",
-            row.backend,
-            row.rejected,
-            row.steps,
-            row.error
-        );
+    let request = leaning(&[10.0, 20.0, 35.0, 50.0], &[0.0, 0.2, 0.5]);
+    for model in ["moto11", "ref11", "gsxr1000"] {
+        let compared = sweeps(&request, &system(model), model, &names, 1).unwrap_or_else(|_| panic!("a sweep of `{model}`"));
+        for row in &compared.rows {
+            let found = format!("{model}, {}: {} of {} missed, {:.1e}", row.backend, row.rejected, row.steps, row.error);
+            assert!(row.rejected == 0 && row.error.max(0.0) < 1e-7, "{found}");
+        }
     }
 }

@@ -4,7 +4,7 @@
 //! x ← x + λ p with J p = −f. The step is shortened from λ = 1 by quadratic and cubic interpolation until ½‖D f‖² has
 //! decreased enough (α = 10⁻⁴) without stopping too early (β = 0.9); D holds the reciprocals of `equation_scale`.
 //!
-//! `kinsol_gmres` finds p without a matrix, from products J v; its tolerance ‖f + J p‖ ≤ η ‖f‖ follows from how well the last step was
+//! `kinsol_gmres` finds p from products J v, preconditioned from the right by the LU factors of a J that is renewed every ten iterations; its tolerance ‖f + J p‖ ≤ η ‖f‖ follows from how well the last step was
 //! predicted (Eisenstat and Walker's first choice).
 //!
 //! `kinsol_picard` and `kinsol_fixed_point` iterate x ← x − J⁻¹ f(x) with the J of an earlier point (renewed every ten iterations, or that of
@@ -45,8 +45,8 @@ struct Work {
     f: Vec<f64>,
     /// Best point seen.
     best: Vec<f64>,
-    /// Factors of the Jacobian at the start, for the fixed-point iteration.
-    start: Option<Factors>,
+    /// Factors of an earlier Jacobian: that of the start for the fixed-point iteration, the preconditioner of GMRES.
+    factors: Option<Factors>,
 }
 
 impl Kinsol {
@@ -92,7 +92,7 @@ impl AlgebraicMethod for Kinsol {
 impl Work {
     fn new(size: usize, strategy: Strategy) -> Self {
         let zeros = || vec![0.0; size];
-        Self { memory: Memory::new(size, strategy), jacobian: Matrix::zeros(size, size), f: zeros(), best: zeros(), start: None }
+        Self { memory: Memory::new(size, strategy), jacobian: Matrix::zeros(size, size), f: zeros(), best: zeros(), factors: None }
     }
 
     /// Hands start, scales and bounds to KINSOL.
@@ -131,11 +131,14 @@ impl Work {
                 return AlgebraicOutcome { ending, effort: Effort { jacobians: 1, ..effort }, residual: f64::INFINITY };
             }
             effort.jacobians = 1;
-            if !self.start.get_or_insert_with(|| Factors::new(x.len())).factorize(self.jacobian.as_slice()) {
+            if !self.factors.get_or_insert_with(|| Factors::new(x.len())).factorize(self.jacobian.as_slice()) {
                 let residual = largest(&self.f, problem.equation_scale());
                 let ending = if residual <= options.residual_tolerance { AlgebraicEnding::Converged } else { AlgebraicEnding::Singular };
                 return AlgebraicOutcome { ending, effort, residual };
             }
+        }
+        if strategy == Strategy::Krylov {
+            self.factors.get_or_insert_with(|| Factors::new(x.len()));
         }
         let mut bridge = Bridge {
             problem,
@@ -143,7 +146,7 @@ impl Work {
             f: &mut self.f,
             best: &mut self.best,
             best_residual: f64::INFINITY,
-            start: self.start.as_mut(),
+            factors: self.factors.as_mut(),
             tolerance: options.residual_tolerance,
             renewed: if strategy == Strategy::Picard { RENEWED } else { 1 },
             asked: 0,
@@ -159,8 +162,10 @@ impl Work {
             Stop::MaxIterations => AlgebraicEnding::MaxIterations,
             Stop::Singular => AlgebraicEnding::Singular,
             Stop::NoDecrease => AlgebraicEnding::NoDecrease,
-            // the Picard iteration tells a factorization that failed from an evaluation by no code
-            Stop::Evaluation if strategy == Strategy::Picard && report.error.is_none() => AlgebraicEnding::Singular,
+            // these tell a factorization that failed from an evaluation by no code
+            Stop::Evaluation if matches!(strategy, Strategy::Picard | Strategy::Krylov) && report.error.is_none() => {
+                AlgebraicEnding::Singular
+            }
             Stop::Evaluation => report.error.map_or(AlgebraicEnding::NoDecrease, AlgebraicEnding::Evaluation),
         };
         AlgebraicOutcome { ending, effort: Effort { iterations: report.iterations, ..effort }, residual: best_residual }
@@ -181,12 +186,22 @@ struct Bridge<'a> {
     f: &'a mut [f64],
     best: &'a mut [f64],
     best_residual: f64,
-    start: Option<&'a mut Factors>,
+    factors: Option<&'a mut Factors>,
     tolerance: f64,
     /// Iterations for which a matrix serves, and how many were asked for.
     renewed: usize,
     asked: usize,
     effort: Effort,
+}
+
+impl Bridge<'_> {
+    /// Evaluates the Jacobian.
+    fn renew(&mut self, x: &[f64]) -> Result<(), EvalError> {
+        self.effort.jacobians += 1;
+        self.problem.jacobian(x, self.f, self.jacobian)?;
+        finite(self.f)?;
+        self.jacobian.as_slice().chunks_exact(x.len()).try_for_each(finite)
+    }
 }
 
 impl System for Bridge<'_> {
@@ -209,7 +224,7 @@ impl System for Bridge<'_> {
             g.copy_from_slice(x);
             return Ok(());
         }
-        if let Some(factors) = &mut self.start {
+        if let Some(factors) = &mut self.factors {
             factors.solve(g);
         }
         g.iter_mut().zip(x).for_each(|(g, x)| *g = x - *g);
@@ -219,10 +234,7 @@ impl System for Bridge<'_> {
     fn jacobian(&mut self, x: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError> {
         self.asked += 1;
         if (self.asked - 1).is_multiple_of(self.renewed) {
-            self.effort.jacobians += 1;
-            self.problem.jacobian(x, self.f, self.jacobian)?;
-            finite(self.f)?;
-            self.jacobian.as_slice().chunks_exact(x.len()).try_for_each(finite)?;
+            self.renew(x)?;
         }
         jacobian.copy_from_slice(self.jacobian.as_slice());
         Ok(())
@@ -232,6 +244,17 @@ impl System for Bridge<'_> {
         self.effort.products += 1;
         self.problem.product(x, v, product)?;
         finite(product)
+    }
+
+    fn prepare(&mut self, x: &[f64]) -> Result<bool, EvalError> {
+        self.renew(x)?;
+        Ok(self.factors.as_mut().is_some_and(|factors| factors.factorize(self.jacobian.as_slice())))
+    }
+
+    fn precondition(&mut self, r: &mut [f64]) {
+        if let Some(factors) = &mut self.factors {
+            factors.solve(r);
+        }
     }
 }
 

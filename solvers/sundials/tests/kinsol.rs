@@ -44,12 +44,13 @@ fn accelerated_iterations_reach_the_easy_ones_with_few_matrices() {
 }
 
 #[test]
-fn products_alone_lead_to_the_same_solutions() {
+fn products_lead_to_the_same_solutions() {
     let mut kinsol = Kinsol::new(Strategy::Krylov);
     for _ in 0..2 {
         for system in [rosenbrock, powell_singular, broyden_tridiagonal] {
             let (outcome, x) = system().solve(&mut kinsol, &AlgebraicOptions::default());
-            assert!(outcome.converged() && outcome.effort.products > 0 && outcome.effort.jacobians == 0, "{outcome:?}");
+            assert!(outcome.converged() && outcome.effort.products > 0, "{outcome:?}");
+            assert!(outcome.effort.jacobians <= outcome.effort.iterations / 10 + 2, "{outcome:?}");
             let (_, exact) = system().solve(&mut Kinsol::default(), &AlgebraicOptions::default());
             // the solution of one of them is a multiple root
             assert!(x.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-2), "{x:?} {exact:?}");
@@ -57,7 +58,7 @@ fn products_alone_lead_to_the_same_solutions() {
     }
     assert!(matches!(ending_of(undefined_at_the_start(), &mut kinsol).0, AlgebraicEnding::Evaluation(_)));
     assert!(!matches!(ending_of(no_real_root(), &mut kinsol).0, AlgebraicEnding::Converged));
-    assert!(!matches!(ending_of(parallel_lines(), &mut kinsol).0, AlgebraicEnding::Converged));
+    assert_eq!(ending_of(parallel_lines(), &mut kinsol).0, AlgebraicEnding::Singular);
     let panic = catch_unwind(AssertUnwindSafe(|| ending_of(panics_away_from_the_start(), &mut kinsol))).unwrap_err();
     assert_eq!(panic.downcast_ref::<&str>(), Some(&"the law has no value here"));
 }

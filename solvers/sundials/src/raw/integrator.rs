@@ -88,7 +88,8 @@ pub fn event(found: &[c_int]) -> IntegrationEnding {
 
 /// Where the user data pointer of an integrator leads, and from there to what one call into the library needs.
 ///
-/// IDA and CVODE copy the pointer when they begin an integration and hand the copy to functions of their linear solvers in all later calls, so
+/// IDA and CVODE copy the pointer when they begin an integration, KINSOL when it is given a linear solver, and hand the copy to functions of linear
+/// solvers in all later calls, so
 /// it must not change from one call to the next.
 pub struct Slot(*mut Cell<*mut c_void>);
 

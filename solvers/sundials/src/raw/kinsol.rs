@@ -1,19 +1,19 @@
 //! One KINSOL solver of fixed size, with everything that it refers to.
 
 use super::context::Context;
+use super::integrator::Slot;
 use super::linear::{Linear, Preconditioned, matrix_entries_mut};
 use super::vector::{Vector, entries, entries_mut};
-use crate::guard::{FATAL, Guard};
+use crate::guard::{FATAL, Guard, RECOVERABLE};
 use problem::{EvalError, LinearSolver};
 use std::ffi::{c_int, c_long, c_void};
-use std::ptr;
 use sundials_sys::{
     KIN_FIRST_SYSFUNC_ERR, KIN_FP, KIN_INITIAL_GUESS_OK, KIN_LINESEARCH, KIN_LINESEARCH_BCFAIL, KIN_LINESEARCH_NONCONV,
     KIN_LINSOLV_NO_RECOVERY, KIN_LSETUP_FAIL, KIN_LSOLVE_FAIL, KIN_MAXITER_REACHED, KIN_MXNEWT_5X_EXCEEDED, KIN_NONE, KIN_PICARD,
     KIN_REPTD_SYSFUNC_ERR, KIN_STEP_LT_STPTOL, KIN_SUCCESS, KIN_SYSFUNC_FAIL, KINCreate, KINFree, KINGetLastLinFlag,
     KINGetNumNonlinSolvIters, KINInit, KINLS_JACFUNC_ERR, KINSetConstraints, KINSetFuncNormTol, KINSetJacFn, KINSetJacTimesVecFn,
     KINSetLinearSolver, KINSetMAA, KINSetMaxBetaFails, KINSetMaxNewtonStep, KINSetMaxSetupCalls, KINSetNoResMon, KINSetNumMaxIters,
-    KINSetScaledStepTol, KINSetUserData, KINSol, N_Vector, SUNMatrix,
+    KINSetPreconditioner, KINSetScaledStepTol, KINSetUserData, KINSol, N_Vector, SUNMatrix,
 };
 
 /// What KINSOL calls back.
@@ -26,6 +26,10 @@ pub trait System {
     fn jacobian(&mut self, x: &[f64], jacobian: &mut [f64]) -> Result<(), EvalError>;
     /// Writes the product of that with v.
     fn product(&mut self, x: &[f64], v: &[f64], product: &mut [f64]) -> Result<(), EvalError>;
+    /// Makes the preconditioner for a point and those near it. False where its matrix is singular.
+    fn prepare(&mut self, x: &[f64]) -> Result<bool, EvalError>;
+    /// Replaces r by P⁻¹ r.
+    fn precondition(&mut self, r: &mut [f64]);
 }
 
 /// How KINSOL makes progress from far away.
@@ -36,7 +40,8 @@ pub enum Strategy {
     LineSearch,
     /// Full Newton steps, shortened only at bounds and where the residual cannot be evaluated.
     FullStep,
-    /// The first, its steps by the generalized minimal residual method: as closely as the distance from the solution asks for.
+    /// The first, its steps by the generalized minimal residual method: as closely as the distance from the solution asks for, preconditioned by
+    /// the factors of a J that is renewed every ten iterations.
     Krylov,
     /// Picard iteration `x − J⁻¹ f(x)` with Anderson acceleration; J is renewed every ten iterations.
     Picard,
@@ -95,6 +100,7 @@ pub struct Memory {
     constraints: Vector,
     strategy: Strategy,
     _linear: Linear,
+    slot: Slot,
     context: Context,
 }
 
@@ -117,11 +123,14 @@ impl Memory {
         let context = Context::new();
         let x = Vector::zeros(&context, size);
         let kind = if strategy == Strategy::Krylov { LinearSolver::Gmres } else { LinearSolver::Direct };
-        let linear = Linear::new(kind, Preconditioned::No, &context, &x);
+        // KINSOL knows no other side
+        let linear = Linear::new(kind, Preconditioned::Right, &context, &x);
+        let slot = Slot::new();
         // SAFETY: context, vector, matrix and linear solver are alive and are owned by the result.
         let raw = unsafe {
             let raw = KINCreate(context.raw());
             assert!(!raw.is_null(), "out of memory while creating a KINSOL solver");
+            accept(KINSetUserData(raw, slot.raw()), &context);
             // memory for accelerated iterations is allocated with the rest
             if matches!(strategy, Strategy::Picard | Strategy::FixedPoint) {
                 accept(KINSetMAA(raw, ANDERSON), &context);
@@ -132,7 +141,10 @@ impl Memory {
                 accept(KINSetLinearSolver(raw, linear.solver(), linear.matrix()), &context);
                 let told = match kind {
                     LinearSolver::Direct => KINSetJacFn(raw, Some(jacobian)),
-                    LinearSolver::Gmres => KINSetJacTimesVecFn(raw, Some(product)),
+                    LinearSolver::Gmres => {
+                        accept(KINSetPreconditioner(raw, Some(prepare), Some(precondition)), &context);
+                        KINSetJacTimesVecFn(raw, Some(product))
+                    }
                 };
                 accept(told, &context);
             }
@@ -144,7 +156,7 @@ impl Memory {
             raw
         };
         let zeros = || Vector::zeros(&context, size);
-        Self { raw, x, unknown_weight: zeros(), equation_weight: zeros(), constraints: zeros(), strategy, _linear: linear, context }
+        Self { raw, x, unknown_weight: zeros(), equation_weight: zeros(), constraints: zeros(), strategy, _linear: linear, slot, context }
     }
 
     /// Number of unknowns.
@@ -185,7 +197,7 @@ impl Memory {
         let mut call = Call { system, accelerated, guard: Guard::default() };
         // the distance of two iterates is what the fixed-point iteration is judged by
         let weight = if self.strategy == Strategy::FixedPoint { &self.unknown_weight } else { &self.equation_weight };
-        // SAFETY: all handles are owned by self; `call` outlives KINSol and is forgotten by KINSOL right after it.
+        // SAFETY: all handles are owned by self; the slot lends `call` as long as KINSol runs.
         let (code, iterations) = unsafe {
             accept(KINSetFuncNormTol(self.raw, request.residual_tolerance), &self.context);
             accept(KINSetScaledStepTol(self.raw, request.step_tolerance), &self.context);
@@ -197,9 +209,7 @@ impl Memory {
             if !accelerated {
                 accept(KINSetConstraints(self.raw, self.constraints.raw()), &self.context);
             }
-            accept(KINSetUserData(self.raw, ptr::from_mut(&mut call).cast()), &self.context);
-            let code = KINSol(self.raw, self.x.raw(), strategy, self.unknown_weight.raw(), weight.raw());
-            KINSetUserData(self.raw, ptr::null_mut());
+            let code = self.slot.lend(&mut call, || KINSol(self.raw, self.x.raw(), strategy, self.unknown_weight.raw(), weight.raw()));
             let mut iterations: c_long = 0;
             KINGetNumNonlinSolvIters(self.raw, &mut iterations);
             (code, iterations)
@@ -216,7 +226,8 @@ impl Memory {
             KIN_MAXITER_REACHED => Stop::MaxIterations,
             KIN_LINESEARCH_NONCONV | KIN_LINESEARCH_BCFAIL => Stop::NoDecrease,
             KIN_SYSFUNC_FAIL | KIN_FIRST_SYSFUNC_ERR | KIN_REPTD_SYSFUNC_ERR => Stop::Evaluation,
-            KIN_LSETUP_FAIL if self.jacobian_failed() => Stop::Evaluation,
+            // a preconditioner without factors and one that could not be evaluated have one code
+            KIN_LSETUP_FAIL if self.jacobian_failed() || self.strategy == Strategy::Krylov => Stop::Evaluation,
             KIN_LSETUP_FAIL | KIN_LSOLVE_FAIL | KIN_LINSOLV_NO_RECOVERY => Stop::Singular,
             refusal => panic!("KINSOL refused with code {refusal}: {}", self.context.message()),
         }
@@ -243,32 +254,51 @@ fn accept(code: c_int, context: &Context) {
     assert!(code == KIN_SUCCESS, "KINSOL refused its set-up with code {code}: {}", context.message());
 }
 
-extern "C" fn residual(x: N_Vector, f: N_Vector, call: *mut c_void) -> c_int {
-    // SAFETY: KINSOL passes the pointer set in `solve` and two different serial vectors that it leaves alone meanwhile.
-    let (call, x, f) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), entries_mut(f)) };
+extern "C" fn residual(x: N_Vector, f: N_Vector, slot: *mut c_void) -> c_int {
+    // SAFETY: `solve` lends the call through the slot; KINSOL passes two different serial vectors that it leaves alone meanwhile.
+    let (call, x, f) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(x), entries_mut(f)) };
     let system = &mut *call.system;
     let code = call.guard.run(|| system.residual(x, f));
     if call.accelerated && code != 0 { FATAL } else { code }
 }
 
-extern "C" fn fixed_point(x: N_Vector, g: N_Vector, call: *mut c_void) -> c_int {
-    // SAFETY: KINSOL passes the pointer set in `solve` and two different serial vectors that it leaves alone meanwhile.
-    let (call, x, g) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), entries_mut(g)) };
+extern "C" fn fixed_point(x: N_Vector, g: N_Vector, slot: *mut c_void) -> c_int {
+    // SAFETY: `solve` lends the call through the slot; KINSOL passes two different serial vectors that it leaves alone meanwhile.
+    let (call, x, g) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(x), entries_mut(g)) };
     let system = &mut *call.system;
     let code = call.guard.run(|| system.fixed_point(x, g));
     if code == 0 { code } else { FATAL }
 }
 
-extern "C" fn jacobian(x: N_Vector, _f: N_Vector, matrix: SUNMatrix, call: *mut c_void, _: N_Vector, _: N_Vector) -> c_int {
-    // SAFETY: KINSOL passes the pointer set in `solve`, a serial vector and the dense matrix, and leaves both alone meanwhile.
-    let (call, x, matrix) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), matrix_entries_mut(matrix)) };
+extern "C" fn jacobian(x: N_Vector, _f: N_Vector, matrix: SUNMatrix, slot: *mut c_void, _: N_Vector, _: N_Vector) -> c_int {
+    // SAFETY: `solve` lends the call through the slot; KINSOL passes a serial vector and the dense matrix, and leaves both alone meanwhile.
+    let (call, x, matrix) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(x), matrix_entries_mut(matrix)) };
     let system = &mut *call.system;
     call.guard.run(|| system.jacobian(x, matrix))
 }
 
-extern "C" fn product(v: N_Vector, product: N_Vector, x: N_Vector, _new: *mut c_int, call: *mut c_void) -> c_int {
-    // SAFETY: KINSOL passes the pointer set in `solve` and different serial vectors, and leaves them alone meanwhile.
-    let (call, x, v, product) = unsafe { (&mut *call.cast::<Call<'_>>(), entries(x), entries(v), entries_mut(product)) };
+extern "C" fn product(v: N_Vector, product: N_Vector, x: N_Vector, _new: *mut c_int, slot: *mut c_void) -> c_int {
+    // SAFETY: `solve` lends the call through the slot; KINSOL passes different serial vectors, and leaves them alone meanwhile.
+    let (call, x, v, product) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(x), entries(v), entries_mut(product)) };
     let system = &mut *call.system;
     call.guard.run(|| system.product(x, v, product))
+}
+
+extern "C" fn prepare(x: N_Vector, _x_scale: N_Vector, _f: N_Vector, _f_scale: N_Vector, slot: *mut c_void) -> c_int {
+    // SAFETY: `solve` lends the call through the slot; KINSOL passes a serial vector that it leaves alone meanwhile.
+    let (call, x) = unsafe { (Slot::lent::<Call<'_>>(slot), entries(x)) };
+    let system = &mut *call.system;
+    let mut regular = false;
+    let code = call.guard.run(|| system.prepare(x).map(|found| regular = found));
+    if code == 0 && !regular { RECOVERABLE } else { code }
+}
+
+extern "C" fn precondition(_x: N_Vector, _x_scale: N_Vector, _f: N_Vector, _f_scale: N_Vector, r: N_Vector, slot: *mut c_void) -> c_int {
+    // SAFETY: `solve` lends the call through the slot; KINSOL passes a serial vector that it leaves alone meanwhile.
+    let (call, r) = unsafe { (Slot::lent::<Call<'_>>(slot), entries_mut(r)) };
+    let system = &mut *call.system;
+    call.guard.run(|| {
+        system.precondition(r);
+        Ok(())
+    })
 }

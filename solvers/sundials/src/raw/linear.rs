@@ -1,5 +1,4 @@
-//! Linear solvers: LU of a dense matrix, and the generalized minimal residual method, which needs products alone and may be preconditioned
-//! from the left.
+//! Linear solvers: LU of a dense matrix, and the generalized minimal residual method, which needs products alone and may be preconditioned.
 //!
 //! Source of the second: Y. Saad, M. H. Schultz, *GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear systems*,
 //! SIAM J. Sci. Stat. Comput. 7, 1986, 856–869.
@@ -11,9 +10,9 @@ use problem::LinearSolver;
 use std::ffi::c_int;
 use std::{ptr, slice};
 use sundials_sys::{
-    SUN_PREC_LEFT, SUN_PREC_NONE, SUNDenseMatrix, SUNDenseMatrix_Data, SUNDenseMatrix_LData, SUNLinSol_Dense, SUNLinSol_SPGMR,
-    SUNLinSol_SPGMRSetMaxRestarts, SUNLinSolFree, SUNLinSolInitialize, SUNLinSolSetup, SUNLinSolSolve, SUNLinearSolver, SUNMatDestroy,
-    SUNMatrix,
+    SUN_PREC_LEFT, SUN_PREC_NONE, SUN_PREC_RIGHT, SUNDenseMatrix, SUNDenseMatrix_Data, SUNDenseMatrix_LData, SUNLinSol_Dense,
+    SUNLinSol_SPGMR, SUNLinSol_SPGMRSetMaxRestarts, SUNLinSolFree, SUNLinSolInitialize, SUNLinSolSetup, SUNLinSolSolve, SUNLinearSolver,
+    SUNMatDestroy, SUNMatrix,
 };
 
 /// Largest dimension of a Krylov subspace. Where it is that of the problem, only rounding keeps the method from ending in it.
@@ -21,13 +20,15 @@ const SUBSPACE: usize = 100;
 /// How often the method may begin anew from where it came to.
 const RESTARTS: c_int = 10;
 
-/// Whether GMRES works on P⁻¹ A instead of A.
+/// Whether GMRES works on P⁻¹ A or on A P⁻¹ instead of A.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preconditioned {
     /// It does not.
     No,
-    /// It does.
+    /// P⁻¹ A: residuals are measured in units of the unknowns.
     Left,
+    /// A P⁻¹: residuals stay those of the equations.
+    Right,
 }
 
 /// Owner of one linear solver, and of the dense matrix that it factorizes where it is a direct one.
@@ -52,7 +53,11 @@ impl Linear {
                     (matrix, SUNLinSol_Dense(template.raw(), matrix, context.raw()))
                 }
                 LinearSolver::Gmres => {
-                    let side = if preconditioned == Preconditioned::Left { SUN_PREC_LEFT } else { SUN_PREC_NONE };
+                    let side = match preconditioned {
+                        Preconditioned::No => SUN_PREC_NONE,
+                        Preconditioned::Left => SUN_PREC_LEFT,
+                        Preconditioned::Right => SUN_PREC_RIGHT,
+                    };
                     let subspace = c_int::try_from(size.min(SUBSPACE)).unwrap_or(c_int::MAX);
                     (ptr::null_mut(), SUNLinSol_SPGMR(template.raw(), side as c_int, subspace, context.raw()))
                 }
